@@ -1,0 +1,22 @@
+# One test program a room: test/<room>/*_test.cpp.
+include(CTest)
+if(NOT BUILD_TESTING)
+  return()
+endif()
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+function(add_room_test room)
+  file(GLOB sources CONFIGURE_DEPENDS test/${room}/*_test.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(test_${room} ${sources})
+  target_include_directories(test_${room} PRIVATE test)
+  target_link_libraries(test_${room} PRIVATE cfem_cutting_${room} cfem_cutting_options GTest::gtest_main ${ARGN})
+  gtest_discover_tests(test_${room} TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()
+
+foreach(room geometry volume elasticity blade cutting contact surface simulation io)
+  add_room_test(${room})
+endforeach()

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "cfem_cutting/geometry/types.h"
+
+namespace cfem_cutting {
+
+/// The point of a polyline nearest to a query.
+struct PolylineProjection {
+  Vec3 point;            ///< m
+  Vec3 tangent;          ///< unit, along the polyline
+  int segment = 0;       ///< index of the segment's first point
+  double t = 0.0;        ///< position in the segment; < 0 or > 1 only beyond the polyline's ends
+  double distance = 0.0; ///< m, from the query to `point`; `point` itself stays on the polyline
+};
+
+/// @pre polyline has at least two points, no two consecutive ones equal
+PolylineProjection project(const Polyline& polyline, const Vec3& query);
+
+/// Splits each segment evenly so that none is longer than max_length (m); keeps all given points.
+Polyline refine(const Polyline& polyline, double max_length);
+
+/// Distance from a point to triangle abc, m.
+double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
+}  // namespace cfem_cutting
