@@ -15,19 +15,28 @@ add_library(cfem_cutting_options INTERFACE)
 target_compile_options(cfem_cutting_options INTERFACE
   $<BUILD_INTERFACE:-Wall -Wextra -Wshadow -Wnon-virtual-dtor $<$<BOOL:${CFEM_CUTTING_WERROR}>:-Werror>>)
 
-# add_room(<name> [dependencies])
+# add_room(<name> [dependencies]); a room without sources yet is an interface library.
 function(add_room room)
   file(GLOB sources CONFIGURE_DEPENDS src/${room}/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS include/cfem_cutting/${room}/*.h)
-  add_library(cfem_cutting_${room} STATIC ${sources} ${headers})
-  target_include_directories(cfem_cutting_${room} PUBLIC
+  set(scope PUBLIC)
+  if(sources)
+    add_library(cfem_cutting_${room} STATIC ${sources} ${headers})
+    target_link_libraries(cfem_cutting_${room} PRIVATE $<BUILD_INTERFACE:cfem_cutting_options>)
+  else()
+    set(scope INTERFACE)
+    add_library(cfem_cutting_${room} INTERFACE)
+  endif()
+  target_include_directories(cfem_cutting_${room} ${scope}
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
-  target_link_libraries(cfem_cutting_${room} PUBLIC ${ARGN} PRIVATE $<BUILD_INTERFACE:cfem_cutting_options>)
+  target_link_libraries(cfem_cutting_${room} ${scope} ${ARGN})
   set_target_properties(cfem_cutting_${room} PROPERTIES EXPORT_NAME ${room})
   set_property(GLOBAL APPEND PROPERTY CFEM_CUTTING_ROOMS cfem_cutting_${room})
 endfunction()
 
-add_room(geometry Eigen3::Eigen CGAL::CGAL assimp::assimp)
+add_room(geometry Eigen3::Eigen)
+# Private, so that CGAL's -frounding-math slows down no other room.
+target_link_libraries(cfem_cutting_geometry PRIVATE CGAL::CGAL assimp::assimp)
 add_room(volume cfem_cutting_geometry ZLIB::ZLIB)
 add_room(elasticity cfem_cutting_volume Threads::Threads)
 add_room(blade cfem_cutting_geometry PkgConfig::urdfdom)

@@ -1,0 +1,81 @@
+#include "cfem_cutting/geometry/polyline.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace cfem_cutting {
+namespace {
+
+double position_on_line(const Vec3& a, const Vec3& b, const Vec3& query) {
+  const Vec3 ab = b - a;
+  return (query - a).dot(ab) / ab.squaredNorm();
+}
+
+double point_segment_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const double length_squared = (b - a).squaredNorm();
+  if (length_squared == 0.0) return (p - a).norm();
+  const double t = std::clamp((p - a).dot(b - a) / length_squared, 0.0, 1.0);
+  return (p - a - t * (b - a)).norm();
+}
+
+PolylineProjection project_on_segment(const Polyline& polyline, int segment, const Vec3& query) {
+  const Vec3& a = polyline[segment];
+  const Vec3& b = polyline[segment + 1];
+  const bool first = segment == 0;
+  const bool last = segment + 2 == static_cast<int>(polyline.size());
+  const double t = position_on_line(a, b, query);
+  const double on_segment = std::clamp(t, 0.0, 1.0);
+
+  PolylineProjection result;
+  result.point = a + on_segment * (b - a);
+  result.tangent = (b - a).normalized();
+  result.segment = segment;
+  result.t = (t < 0.0 && first) || (t > 1.0 && last) ? t : on_segment;
+  result.distance = (query - result.point).norm();
+  return result;
+}
+
+}  // namespace
+
+PolylineProjection project(const Polyline& polyline, const Vec3& query) {
+  assert(polyline.size() >= 2);
+  PolylineProjection nearest;
+  nearest.distance = std::numeric_limits<double>::infinity();
+  for (int segment = 0; segment + 1 < static_cast<int>(polyline.size()); ++segment) {
+    const PolylineProjection candidate = project_on_segment(polyline, segment, query);
+    if (candidate.distance < nearest.distance) nearest = candidate;
+  }
+  return nearest;
+}
+
+Polyline refine(const Polyline& polyline, double max_length) {
+  assert(max_length > 0.0);
+  if (polyline.empty()) return {};
+  Polyline refined{polyline.front()};
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    const Vec3& a = polyline[i - 1];
+    const Vec3& b = polyline[i];
+    const double rounding = 1e-9;
+    const int parts = std::max(1, static_cast<int>(std::ceil((b - a).norm() / max_length - rounding)));
+    for (int part = 1; part < parts; ++part)
+      refined.push_back(a + (b - a) * (static_cast<double>(part) / parts));
+    refined.push_back(b);
+  }
+  return refined;
+}
+
+double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double to_edges = std::min(
+      {point_segment_distance(p, a, b), point_segment_distance(p, b, c), point_segment_distance(p, c, a)});
+  const Vec3 normal = (b - a).cross(c - a);
+  const double area = normal.norm();
+  if (area == 0.0) return to_edges;
+  const bool above_triangle = (b - a).cross(p - a).dot(normal) >= 0.0 &&
+                              (c - b).cross(p - b).dot(normal) >= 0.0 &&
+                              (a - c).cross(p - c).dot(normal) >= 0.0;
+  return above_triangle ? std::abs((p - a).dot(normal)) / area : to_edges;
+}
+
+}  // namespace cfem_cutting
