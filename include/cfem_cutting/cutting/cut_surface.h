@@ -1,0 +1,32 @@
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "cfem_cutting/cutting/sweep.h"
+
+namespace cfem_cutting {
+
+/// All swept surface that fractures have opened so far, in material space. Tells new area from old: a second
+/// pass along the same cut opens nothing and pays nothing.
+class CutSurface {
+ public:
+  /// @param cell m, bucket size (a voxel); also the scale of "near"
+  explicit CutSurface(double cell);
+
+  /// Adds triangles and returns the area (m²) that is inside tissue and was not within a quarter of a cell of the
+  /// surface before.
+  double add(const VoxelVolume& volume, const std::vector<SweptTriangle>& triangles);
+
+  /// Distance to the surface if within `radius` ≤ cell, else infinity, m.
+  double distance(const Vec3& X, double radius) const;
+
+  const std::vector<SweptTriangle>& triangles() const { return triangles_; }
+
+ private:
+  double cell_;
+  std::vector<SweptTriangle> triangles_;
+  std::unordered_map<std::int64_t, std::vector<int>> buckets_;
+};
+
+}  // namespace cfem_cutting

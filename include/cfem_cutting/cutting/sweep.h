@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "cfem_cutting/elasticity/inverse_map.h"
+
+namespace cfem_cutting {
+
+/// A piece of the swept surface in material space.
+struct SweptTriangle {
+  std::array<Vec3, 3> corners;  ///< m
+  Vec3 normal() const { return (corners[1] - corners[0]).cross(corners[2] - corners[0]); }  ///< length: twice the area
+};
+
+/// Front points in material space; nothing where the edge is far from tissue.
+using MaterialFront = std::vector<std::optional<MaterialPoint>>;
+
+/// The surface between two positions of the front, two triangles for each pair of neighbouring points of which
+/// at least one of the four corners lies inside tissue or which pass from one side of it to the other; zero-area
+/// triangles are left out. The fronts must have equal length.
+std::vector<SweptTriangle> sweep(const MaterialFront& before, const MaterialFront& after);
+
+}  // namespace cfem_cutting
