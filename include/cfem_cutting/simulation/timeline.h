@@ -1,0 +1,53 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "cfem_cutting/simulation/simulation.h"
+
+namespace cfem_cutting {
+
+/// Cuts a stream of stamped tool poses into steps of equal length that end on multiples of the time step; poses are
+/// interpolated at the steps' ends, and those that fall inside a step are passed on, so the result does not depend on
+/// the rate of the poses. Used by the node and offline alike.
+class Timeline {
+ public:
+  /// @param time_step s
+  /// @param max_gap s, a longer time between two poses makes the front anew
+  explicit Timeline(double time_step, double max_gap = 0.5);
+
+  /// @return false if the stamp does not increase: the pose is not used
+  bool push(double stamp, const Pose& X_TB);
+
+  /// The next whole step that the poses so far cover (grips are the caller's).
+  std::optional<StepInput> next();
+
+  /// One step through all poses queued, which ends at the last multiple before the newest pose; skips simulated time.
+  /// @param skipped s, added to: time that was not simulated
+  std::optional<StepInput> catch_up(double& skipped);
+
+  /// Step with the blade held where it is (no new pose).
+  StepInput hold();
+
+  /// s, from the last step's end to the newest pose.
+  double lag() const;
+
+  /// Forgets all (time ran backwards): the front is set anew at the next pose.
+  void restart();
+
+ private:
+  struct Stamped {
+    double time;
+    Pose X_TB;
+  };
+  Pose at(double time) const;
+
+  double time_step_;
+  double max_gap_;
+  std::deque<Stamped> poses_;    // the last one that a step used, and all after it
+  std::int64_t step_ = 0;        // the last step's end is step_ · time_step_
+  bool started_ = false;
+  bool front_anew_ = true;
+};
+
+}  // namespace cfem_cutting
