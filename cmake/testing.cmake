@@ -20,3 +20,7 @@ endfunction()
 foreach(room geometry volume elasticity blade cutting contact surface simulation io)
   add_room_test(${room})
 endforeach()
+
+# The installed core serves a project without ROS.
+add_test(NAME install COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_BINARY_DIR}
+  -P ${CMAKE_CURRENT_SOURCE_DIR}/test/install/install_test.cmake)
