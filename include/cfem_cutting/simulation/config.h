@@ -23,27 +23,27 @@ struct GripConfig {
 
 struct TissueConfig {
   std::string frame = "tissue";
-  std::string source = "box";        ///< a file (package://, file://, plain path) or "box"
-  Vec3 box_size{0.1, 0.1, 0.05};     ///< m
-  double scale = 1.0;                ///< m per mesh unit
-  Vec3 xyz = Vec3::Zero();           ///< m
-  Vec3 rpy = Vec3::Zero();           ///< rad, fixed axes x, y, z as in URDF
+  std::string source = "box";     ///< a file (package://, file://, plain path) or "box"
+  Vec3 box_size{0.1, 0.1, 0.05};  ///< m
+  double scale = 1.0;             ///< m per mesh unit
+  Vec3 xyz = Vec3::Zero();        ///< m
+  Vec3 rpy = Vec3::Zero();        ///< rad, fixed axes x, y, z as in URDF
   std::vector<int> labels{255};
   Vec3 voxel_size = Vec3::Constant(0.004);  ///< m
   int composite_level = 1;
-  Vec3 gravity = Vec3::Zero();       ///< m/s²
+  Vec3 gravity = Vec3::Zero();  ///< m/s²
   std::vector<Material> materials{Material{}};
   std::vector<GripConfig> fixed;
 };
 
 struct BladeConfig {
-  Polyline edge;                        ///< m, tool frame; empty if edge_links are used
+  Polyline edge;  ///< m, tool frame; empty if edge_links are used
   std::vector<std::string> edge_links;
-  std::string urdf;                     ///< file; empty: parameter robot_description
+  std::string urdf;  ///< file; empty: parameter robot_description
   Vec3 back{0, 0, 1};
   double friction = 0.0;
   std::string tool_link = "scalpel";
-  double max_travel = 0.02;             ///< m
+  double max_travel = 0.02;  ///< m
 };
 
 struct SurfaceConfig {
@@ -53,8 +53,8 @@ struct SurfaceConfig {
 struct DynamicsConfig {
   ElementKind element = ElementKind::kIncompatibleModes;
   Kinematics kinematics = Kinematics::kCorotational;
-  bool quasi_static = false;            ///< integration: quasi_static instead of implicit_euler
-  double time_step = 0.01;              ///< s
+  bool quasi_static = false;  ///< integration: quasi_static instead of implicit_euler
+  double time_step = 0.01;    ///< s
   SolverOptions solver;
 };
 
@@ -65,7 +65,7 @@ struct SimulationConfig {
   FractureOptions fracture;
   SurfaceConfig surface;
   DynamicsConfig dynamics;
-  std::vector<Vec3> probes;             ///< m, material points
+  std::vector<Vec3> probes;  ///< m, material points
 };
 
 }  // namespace cfem_cutting

@@ -24,19 +24,19 @@ struct ContactForce {
 
 /// The fracture that ends a deformation–fracture unit; in the tissue frame T.
 struct FractureEvent {
-  double time = 0.0;             ///< s
-  std::uint32_t unit = 0;        ///< from 1
+  double time = 0.0;       ///< s
+  std::uint32_t unit = 0;  ///< from 1
   std::uint32_t links_severed = 0;
-  double area = 0.0;             ///< m², new cut area
-  double largest_offset = 0.0;   ///< m
-  double fracture_work = 0.0;    ///< J, elastic energy that the fracture set free
-  double blade_work = 0.0;       ///< J, done by the blade in this unit
-  double peak_force = 0.0;       ///< N, in this unit
-  Vec3 centroid = Vec3::Zero();  ///< m, of the new cut
-  Vec3 normal = Vec3::UnitZ();   ///< unit, of the new cut
-  Polyline front;                ///< m, blade front at fracture
+  double area = 0.0;                  ///< m², new cut area
+  double largest_offset = 0.0;        ///< m
+  double fracture_work = 0.0;         ///< J, elastic energy that the fracture set free
+  double blade_work = 0.0;            ///< J, done by the blade in this unit
+  double peak_force = 0.0;            ///< N, in this unit
+  Vec3 centroid = Vec3::Zero();       ///< m, of the new cut
+  Vec3 normal = Vec3::UnitZ();        ///< unit, of the new cut
+  Polyline front;                     ///< m, blade front at fracture
   std::vector<double> piece_volumes;  ///< m³, after, largest first
-  bool separated = false;        ///< a piece came off
+  bool separated = false;             ///< a piece came off
 };
 
 struct StageTime {
@@ -62,7 +62,8 @@ struct StepReport {
   Wrench spatial;           ///< tissue on tool, in T, moment about T's origin
   Wrench body;              ///< tissue on tool, in the tool frame B, moment about B's origin
   std::vector<ContactForce> contacts;
-  double blade_distance = 0.0;  ///< m, largest distance of the drawn crease or cut end from the edge inside tissue
+  double blade_distance =
+      0.0;  ///< m, largest distance of the drawn crease or cut end from the edge inside tissue
   std::vector<FractureEvent> events;  ///< in this step
   std::vector<StageTime> stages;
 };

@@ -14,13 +14,16 @@ namespace cfem_cutting {
 
 /// What happens in one step.
 struct StepInput {
-  double time = 0.0;            ///< s, at the end of the step
-  std::vector<Pose> path;       ///< X_TB, poses of the tool passed through since the last step, in order; empty: no tool
-  bool front_anew = false;      ///< the way to the first pose of `path` is unknown (gap, time jump) and cuts nothing
+  double time = 0.0;  ///< s, at the end of the step
+  std::vector<Pose>
+      path;  ///< X_TB, poses of the tool passed through since the last step, in order; empty: no tool
+  bool front_anew =
+      false;  ///< the way to the first pose of `path` is unknown (gap, time jump) and cuts nothing
   std::map<std::string, Pose> grips;  ///< X_TF of followed frames, by name; a missing one stays where it was
 };
 
-/// Cutting simulation of one tissue with one blade (Jia et al., Pacific Graphics 2019, Algorithm 1), ROS-free.
+/// Cutting simulation of one tissue with one blade (Jia et al., Pacific Graphics 2019, Algorithm 1),
+/// ROS-free.
 class Simulation {
  public:
   /// @param shape the tissue
@@ -40,7 +43,7 @@ class Simulation {
   const Pieces& pieces() const;
   const ElasticState& state() const;
   const TissueSurface& surface() const;
-  const Front& front() const;          ///< in T, now; empty before the first pose
+  const Front& front() const;  ///< in T, now; empty before the first pose
 
   /// The surface as drawn now.
   DeformedSurface deformed_surface() const;

@@ -7,9 +7,9 @@
 
 namespace cfem_cutting {
 
-/// Cuts a stream of stamped tool poses into steps of equal length that end on multiples of the time step; poses are
-/// interpolated at the steps' ends, and those that fall inside a step are passed on, so the result does not depend on
-/// the rate of the poses. Used by the node and offline alike.
+/// Cuts a stream of stamped tool poses into steps of equal length that end on multiples of the time step;
+/// poses are interpolated at the steps' ends, and those that fall inside a step are passed on, so the result
+/// does not depend on the rate of the poses. Used by the node and offline alike.
 class Timeline {
  public:
   /// @param time_step s
@@ -22,7 +22,8 @@ class Timeline {
   /// The next whole step that the poses so far cover (grips are the caller's).
   std::optional<StepInput> next();
 
-  /// One step through all poses queued, which ends at the last multiple before the newest pose; skips simulated time.
+  /// One step through all poses queued, which ends at the last multiple before the newest pose; skips
+  /// simulated time.
   /// @param skipped s, added to: time that was not simulated
   std::optional<StepInput> catch_up(double& skipped);
 
@@ -44,8 +45,8 @@ class Timeline {
 
   double time_step_;
   double max_gap_;
-  std::deque<Stamped> poses_;    // the last one that a step used, and all after it
-  std::int64_t step_ = 0;        // the last step's end is step_ · time_step_
+  std::deque<Stamped> poses_;  // the last one that a step used, and all after it
+  std::int64_t step_ = 0;      // the last step's end is step_ · time_step_
   bool started_ = false;
   bool front_anew_ = true;
 };

@@ -54,6 +54,7 @@ class SurfaceExtractor {
 /// A surface placed by node positions, with smooth normals on the skin and separate ones on both sides of the rim.
 struct DeformedSurface {
   std::vector<Vec3> positions;  ///< m, (|V|)
+  std::vector<int> source;      ///< index of the TissueSurface vertex that each stems from, (|V|)
   std::vector<Vec3> normals;    ///< unit, (|V|)
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::uint8_t> cut;

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "cfem_cutting/cutting/fracture.h"
+
+namespace cfem_cutting {
+
+/// The deformation–fracture unit in progress: what the front has swept since the last fracture, and the links
+/// that wait to be severed.
+class CuttingUnit {
+ public:
+  std::uint32_t number = 1;
+  double blade_work = 0.0;      ///< J, in this unit
+  double peak_force = 0.0;      ///< N, in this unit
+  double largest_offset = 0.0;  ///< m, of the contact points, now
+
+  const std::vector<Candidate>& candidates() const { return candidates_; }
+  const std::vector<SweptTriangle>& swept() const { return swept_; }
+
+  /// Adds a sweep and the links that it meets; a link that waits already is met once.
+  void collect(const std::vector<SweptTriangle>& swept, const std::vector<Crossing>& crossings);
+
+  /// Updates the candidates' offsets and their distances from the front; drops those that the front has
+  /// retreated from by more than two blocks.
+  /// @param push the way the blade cuts, in material space
+  void measure(const VoxelVolume& volume, const OffsetField& offsets, const std::vector<Polyline>& front,
+               const Vec3& push, double block);
+
+  /// The contact ended: nothing waits any more.
+  void drop();
+
+  /// The next unit begins; these candidates wait on.
+  void begin_next(const std::vector<Candidate>& waiting);
+
+ private:
+  std::vector<Candidate> candidates_;  // sorted by link
+  std::vector<SweptTriangle> swept_;
+};
+
+}  // namespace cfem_cutting

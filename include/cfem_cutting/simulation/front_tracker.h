@@ -1,0 +1,67 @@
+#pragma once
+
+#include <vector>
+
+#include "cfem_cutting/blade/blade.h"
+#include "cfem_cutting/cutting/sweep.h"
+#include "cfem_cutting/volume/inside.h"
+
+namespace cfem_cutting {
+
+/// A point of the front that lies in tissue.
+struct Touch {
+  double along;  ///< m, arc length on the edge from the heel
+  Vec3 on_edge;  ///< m, in T
+  Vec3 X;        ///< m, material: where it entered the skin in this motion, else where it is
+  int voxel;     ///< linked voxel that carries X
+};
+
+/// What the front did in one motion.
+struct FrontMotion {
+  std::vector<SweptTriangle> swept;
+  std::vector<Touch> touches;  ///< along the edge
+};
+
+/// Follows the blade's front in world and material space. Front points, once pulled back, are kept as
+/// material points: a sweep starts exactly where the last one ended, so no link slips through the seam.
+class FrontTracker {
+ public:
+  /// @param segment m, longest segment of the front, and longest way of its points in one motion
+  FrontTracker(const Blade& blade, double segment) : blade_(blade), segment_(segment) {}
+
+  /// Forgets where the blade was.
+  void lift();
+
+  /// Sets the front without a way to there.
+  void place_anew(const Pose& X_TB, const InverseMap& reference);
+
+  /// Poses between the present one and X_TB such that no point of the edge moves farther than a segment at
+  /// once.
+  std::vector<Pose> subdivide(const Pose& X_TB) const;
+
+  /// Moves the front and pulls it back to material space.
+  FrontMotion move(const Pose& X_TB, const VoxelVolume& volume, const InverseMap& reference);
+
+  bool placed() const { return !front_.points.empty(); }
+  const Pose& pose() const { return X_TB_; }
+  const Front& front() const { return front_; }
+  const MaterialFront& material() const { return material_; }
+
+  /// Points of the front inside tissue, where they are now.
+  std::vector<Touch> inside() const;
+
+  /// The front's runs inside tissue, in material space.
+  std::vector<Polyline> runs_inside() const;
+
+ private:
+  std::vector<double> arc_lengths() const;
+  MaterialFront pull_back(const Front& front, const InverseMap& reference) const;
+
+  Blade blade_;
+  double segment_;
+  Pose X_TB_ = Pose::Identity();
+  Front front_;
+  MaterialFront material_;
+};
+
+}  // namespace cfem_cutting

@@ -1,0 +1,44 @@
+#include "cfem_cutting/simulation/grips.h"
+
+#include <algorithm>
+
+namespace cfem_cutting {
+
+void Grips::find_nodes(const CompositeMesh& mesh) {
+  held_ = {};
+  grip_of_held_.clear();
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    const Vec3 X = mesh.rest().col(node);
+    const auto grip =
+        std::find_if(grips_.begin(), grips_.end(), [&](const auto& g) { return g.box.contains(X); });
+    if (grip == grips_.end()) continue;
+    held_.nodes.push_back(node);
+    held_.positions.push_back(X);
+    grip_of_held_.push_back(static_cast<int>(grip - grips_.begin()));
+  }
+}
+
+bool Grips::move(const CompositeMesh& mesh, double time, const std::map<std::string, Pose>& frames) {
+  for (const auto& [name, pose] : frames)
+    carriers_.try_emplace(name, Carrier{pose, pose}).first->second.now = pose;
+  bool moved = false;
+  for (std::size_t i = 0; i < held_.nodes.size(); ++i) {
+    const Vec3 next = position(grip_of_held_[i], mesh.rest().col(held_.nodes[i]), time);
+    moved |= next != held_.positions[i];
+    held_.positions[i] = next;
+  }
+  return moved;
+}
+
+Vec3 Grips::position(int grip, const Vec3& X, double time) const {
+  const GripConfig& g = grips_[grip];
+  const double share = g.ramp > 0.0 ? std::min(1.0, time / g.ramp) : 1.0;
+  const Vec3 displaced = X + share * g.displacement;
+  const auto carrier = carriers_.find(g.follow);
+  if (carrier == carriers_.end()) return displaced;
+  return carrier->second.now * (carrier->second.first.inverse() * displaced);
+}
+
+void Grips::reset() { carriers_.clear(); }
+
+}  // namespace cfem_cutting

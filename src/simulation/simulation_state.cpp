@@ -1,0 +1,132 @@
+#include "simulation_state.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace cfem_cutting {
+namespace {
+
+/// Penalty of a contact point over Young's modulus times block edge: a point stays within about 5 % of a
+/// voxel of the blade in the first step, and the multipliers take the rest.
+constexpr double kContactStiffness = 20.0;
+
+double stiffest(const std::vector<Material>& materials) {
+  double modulus = 0.0;
+  for (const Material& m : materials) modulus = std::max(modulus, m.young_modulus);
+  return modulus;
+}
+
+double contact_spacing(const VoxelVolume& volume) { return 0.5 * volume.lattice().spacing.minCoeff(); }
+
+std::vector<std::string> find_warnings(const VoxelVolume& volume, const Grips& grips,
+                                       const std::vector<Vec3>& probes) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](auto&&... parts) {
+    std::ostringstream line;
+    (line << ... << parts);
+    warnings.push_back(line.str());
+  };
+  if (volume.dropped_volume() > 0.0)
+    warn("tissue.voxel_size: ", volume.dropped_volume(), " m^3 of tissue thinner than a voxel was left out");
+  if (grips.held().nodes.empty()) warn("tissue.fixed: no node is held, the tissue floats");
+  for (const Vec3& X : probes)
+    if (tissue_voxel_at(volume, X) < 0)
+      warn("probes: [", X.x(), ", ", X.y(), ", ", X.z(), "] lies outside the tissue");
+  return warnings;
+}
+
+}  // namespace
+
+Simulation::State::State(const SimulationConfig& config_in, VoxelVolume uncut, const Blade& blade_in)
+    : config(config_in),
+      blade(blade_in),
+      rest_volume(std::move(uncut)),
+      volume(rest_volume),
+      model(volume, config.tissue.composite_level, config.tissue.materials, config.dynamics.element,
+            config.dynamics.kinematics),
+      integrator(config.dynamics.solver),
+      pieces(find_pieces(volume)),
+      grips(config.tissue.fixed),
+      elastic{model.mesh().rest(), NodeField::Zero(3, model.mesh().node_count())},
+      reference(elastic.x),
+      pull_back(std::make_unique<InverseMap>(volume, model.mesh(), reference)),
+      block(model.mesh().block_size().maxCoeff()),
+      tracker(blade, contact_spacing(volume)),
+      contact(contact_spacing(volume), kContactStiffness * stiffest(config.tissue.materials) * block,
+              blade.friction),
+      cut_surface(volume.lattice().spacing.maxCoeff()),
+      extractor(volume) {
+  grips.find_nodes(model.mesh());
+  extractor.extract({});
+  warnings = find_warnings(volume, grips, config.probes);
+}
+
+void Simulation::State::place_grips(const StepInput& input) {
+  elapsed += config.dynamics.time_step;
+  grips_moved = grips.move(model.mesh(), elapsed, input.grips);
+  if (grips_moved && !contact.empty()) refresh_reference();
+}
+
+/// Without the blade the tissue is its own reference; in contact it is solved for (at first touch, after each
+/// fracture that severs links, and while grips move).
+void Simulation::State::refresh_reference() {
+  if (contact.empty()) {
+    const double change = (elastic.x - reference).cwiseAbs().maxCoeff();
+    constexpr double kNegligible = 1.0e-4;  // of a block
+    if (change < kNegligible * block && reference.cols() == elastic.x.cols()) return;
+    reference = elastic.x;
+  } else {
+    integrator.equilibrate(model, reference, config.tissue.gravity, grips.held(), {});
+  }
+  pull_back = std::make_unique<InverseMap>(volume, model.mesh(), reference);
+}
+
+double Simulation::State::potential(const NodeField& x) const {
+  return model.energy(x) - config.tissue.gravity.dot(x * model.mass());
+}
+
+Vec3 Simulation::State::push() const { return -tracker.front().back; }
+
+FrontTrace Simulation::State::front_trace() const {
+  if (immediate()) return tracker.runs_inside();
+  FrontTrace trace;
+  double last = 0.0;
+  for (const EdgeContactPoint& p : contact.points()) {
+    const bool continues = !trace.empty() && p.along - last < 3.0 * contact_spacing(volume);
+    if (!continues) trace.emplace_back();
+    trace.back().push_back(p.X);
+    last = p.along;
+  }
+  trace.erase(std::remove_if(trace.begin(), trace.end(), [](const Polyline& run) { return run.size() < 2; }),
+              trace.end());
+  return trace;
+}
+
+void Simulation::State::adapt() {
+  const bool wanted = config.surface.influence_domain_adaptation;
+  extractor.extract(wanted ? front_trace() : FrontTrace());
+}
+
+void Simulation::State::collide(double dt) {
+  contact.follow(tracker.front(), motion, model.mesh(), elastic.x);
+  constraints = contact.constraints(model.mesh(), elastic.x, dt);
+}
+
+void Simulation::State::solve(StepReport& report) {
+  const auto& gravity = config.tissue.gravity;
+  SolveReport solved;
+  if (config.dynamics.quasi_static) {
+    solved = integrator.equilibrate(model, elastic.x, gravity, grips.held(), constraints);
+    elastic.v.setZero();
+  } else {
+    solved = integrator.step(model, elastic, config.dynamics.time_step, gravity, grips.held(), constraints);
+  }
+  contact.take_forces(constraints, elastic.x);
+  if (contact.empty()) refresh_reference();
+  report.iterations = solved.iterations;
+  report.residual = solved.residual;
+  report.converged = solved.converged;
+  report.inverted_elements = model.inverted_elements();
+}
+
+}  // namespace cfem_cutting

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+
+#include "cfem_cutting/contact/edge_contact.h"
+#include "cfem_cutting/cutting/cut_surface.h"
+#include "cfem_cutting/simulation/cutting_unit.h"
+#include "cfem_cutting/simulation/front_tracker.h"
+#include "cfem_cutting/simulation/grips.h"
+#include "cfem_cutting/simulation/simulation.h"
+
+namespace cfem_cutting {
+
+/// The simulation's data and the stages of its loop, in the loop's order.
+struct Simulation::State {
+  State(const SimulationConfig& config_in, VoxelVolume uncut, const Blade& blade_in);
+
+  void place_grips(const StepInput& input);
+  void sweep(const StepInput& input);
+  Fracture judge();
+  void sever(const Fracture& fracture, StepReport& report);
+  void adapt();
+  void collide(double dt);
+  void solve(StepReport& report);
+  void account(StepReport& report);
+
+  // Parts of the stages.
+  void meet(const FrontMotion& motion);
+  void leave_tissue();
+  bool advances(const Fracture& fracture, const OffsetField& offsets) const;
+  void rebuild(const Fracture& fracture);
+  void advance_cut_end();
+  void describe(const Fracture& fracture, FractureEvent& event);
+  void refresh_reference();
+  double potential(const NodeField& x) const;
+  double contact_offset(const OffsetField& offsets) const;
+  FrontTrace front_trace() const;
+  Vec3 push() const;
+  double blade_distance() const;
+  void take_wrench();
+  bool immediate() const { return config.fracture.mode == FractureMode::kImmediate; }
+
+  SimulationConfig config;
+  Blade blade;
+  VoxelVolume rest_volume;  // uncut, for reset
+  VoxelVolume volume;
+  ElasticModel model;
+  Integrator integrator;
+  Pieces pieces;
+  Grips grips;
+  ElasticState elastic;
+  NodeField reference;                    // φ_ref: equilibrium without the blade
+  std::unique_ptr<InverseMap> pull_back;  // of φ_ref
+  double block;                           // m, longest edge of a composite element
+  FrontTracker tracker;
+  EdgeContact contact;
+  std::vector<PointConstraint> constraints;
+  CuttingUnit unit;
+  CutSurface cut_surface;
+  SurfaceExtractor extractor;
+  Pose motion = Pose::Identity();  // of the blade in this step, in T
+  Wrench wrench;                   // tissue on tool, in T, after the last solve
+  double cut_area = 0.0;           // m²
+  double blade_work = 0.0;         // J
+  double elapsed = 0.0;            // s, since the start
+  bool grips_moved = false;
+  std::vector<std::string> warnings;
+};
+
+}  // namespace cfem_cutting
