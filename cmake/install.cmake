@@ -28,3 +28,6 @@ install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/core_config/cfem_cuttingConfigVersion.cmake
   DESTINATION ${config_dir} COMPONENT core)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/cfem_cutting COMPONENT core)
+
+# What scripts/fetch_data has fetched, if it has: configurations name it as package://cfem_cutting/data/…
+install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/cfem_cutting OPTIONAL)
