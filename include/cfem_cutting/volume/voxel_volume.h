@@ -47,8 +47,10 @@ struct LinkId {
 /// lattice index; the voxels themselves never change, links only from intact to severed.
 class VoxelVolume {
  public:
-  /// Samples a shape on a lattice of the given spacing (m), aligned so that voxel faces meet the tissue
-  /// frame's origin + phase·h.
+  /// Samples a shape on a lattice of the given spacing (m) that covers it with an empty layer all around.
+  /// Voxel faces lie at whole multiples of the spacing from the tissue frame's origin. A voxel is linked if
+  /// its centre is in tissue; should all its samples miss that tissue, the eight about its centre count as
+  /// filled. An unlinked voxel goes to its best-filled linked face neighbour, else edge or corner neighbour.
   /// @throw GeometryError no voxel centre in tissue; more than `max_voxels` lattice voxels.
   static VoxelVolume sample(const Shape& shape, const Vec3& spacing, std::int64_t max_voxels = 200'000'000);
 
@@ -64,8 +66,9 @@ class VoxelVolume {
   std::int64_t link_count() const { return link_count_; }
   std::int64_t severed_count() const { return severed_count_; }
 
-  /// The Hermite datum of a severed or surface link seen from voxel v in a direction: its point, and the
-  /// normal that points away from v.
+  /// The Hermite datum of a severed or surface link seen from voxel v in a direction: its point, on the
+  /// link and at least 0.02 of it away from both ends; and the normal that points away from v (of a surface
+  /// link: the shape's outward normal).
   const SurfacePoint& crossing(int v, int direction) const;
 
   /// Severs an intact link at a point (m, kept between the two centres) of a surface with this normal (any
@@ -83,6 +86,15 @@ class VoxelVolume {
   double dropped_volume() const { return dropped_volume_; }
 
  private:
+  void number_voxels();
+  void host_unlinked_voxels();
+  void link_voxels(const Shape& shape);
+  void link_across(int v, int direction, const Shape& shape);
+  int find_host(const Vec3i& index) const;
+  int best_filled_linked(const Vec3i& index, int max_steps) const;
+  Vec3 point_on_link(int v, int direction, const Vec3& X) const;
+  void set_crossing(int v, int direction, const SurfacePoint& crossing);
+
   Lattice lattice_;
   std::vector<Voxel> voxels_;
   std::vector<int> voxel_of_cell_;                                  // lattice index → voxel, −1
