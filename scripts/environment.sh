@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by the scripts beside it (bash): where the package lies, which tools come first, how to talk.
 
 package_dir="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
