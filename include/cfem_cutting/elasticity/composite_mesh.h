@@ -13,8 +13,8 @@ using NodeField = Eigen::Matrix3Xd;
 /// One component of a block's voxels: a hexahedron with nodes at the block's corners; node a + 2(b + 2c)
 /// lies at the corner (a, b, c).
 struct CompositeElement {
-  Vec3i block;                 ///< block index: voxel index >> level
-  std::vector<int> voxels;     ///< linked and hosted voxels, ascending
+  Vec3i block;              ///< block index: voxel index >> level
+  std::vector<int> voxels;  ///< linked and hosted voxels, ascending
   std::array<int, 8> nodes{};
 };
 
@@ -28,8 +28,9 @@ struct Embedding {
 
 /// Composite hexahedra over the voxels (Nesme et al. 2009; Dick et al. 2011): the voxels of a block fall into
 /// components under the intact links inside the block, each component is an element with eight private nodes,
-/// and each intact link between two blocks unites the nodes that the two elements share (DESIGN of duplication:
-/// a cut block has one copy a side). A hosted voxel is joined to its host as if by an intact link.
+/// and each intact link between two blocks unites the nodes that the two elements share (DESIGN of
+/// duplication: a cut block has one copy a side). A hosted voxel is joined to its host as if by an intact
+/// link.
 class CompositeMesh {
  public:
   CompositeMesh(const VoxelVolume& volume, int level);
@@ -39,7 +40,7 @@ class CompositeMesh {
   const NodeField& rest() const { return rest_; }  ///< m, material positions of the nodes
   int node_count() const { return static_cast<int>(rest_.cols()); }
   int element_of_voxel(int voxel) const { return element_of_voxel_[voxel]; }
-  Vec3 block_size() const { return block_size_; }            ///< m
+  Vec3 block_size() const { return block_size_; }  ///< m
   Vec3 block_corner(int element) const { return rest_.col(elements_[element].nodes[0]); }
 
   /// Embeds a material point (also outside of the block: extrapolated) in the element of a voxel.
@@ -54,8 +55,8 @@ class CompositeMesh {
   NodeField rest_;
 };
 
-/// For each node of `after` the node of `before` that it stems from: that of the element which held one of the
-/// same voxels, at the same corner. Both meshes are of one volume, `after` with more links severed.
+/// For each node of `after` the node of `before` that it stems from: that of the element which held one of
+/// the same voxels, at the same corner. Both meshes are of one volume, `after` with more links severed.
 std::vector<int> parent_nodes(const CompositeMesh& before, const CompositeMesh& after);
 
 }  // namespace cfem_cutting

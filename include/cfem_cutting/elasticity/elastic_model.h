@@ -19,7 +19,8 @@ using ElementMatrix = Eigen::Matrix<double, 24, 24>;  ///< N/m; row 3n + axis
 class ElasticModel {
  public:
   /// @throw ConfigError a voxel's label has no material.
-  ElasticModel(const VoxelVolume& volume, int level, std::vector<Material> materials, ElementKind kind, Kinematics kinematics);
+  ElasticModel(const VoxelVolume& volume, int level, std::vector<Material> materials, ElementKind kind,
+               Kinematics kinematics);
   ~ElasticModel();
 
   /// Rebuilds mesh, matrices and masses after links were severed.
@@ -27,7 +28,7 @@ class ElasticModel {
   std::vector<int> update(const VoxelVolume& volume);
 
   const CompositeMesh& mesh() const { return *mesh_; }
-  const Eigen::VectorXd& mass() const { return mass_; }   ///< kg, lumped (|nodes|)
+  const Eigen::VectorXd& mass() const { return mass_; }  ///< kg, lumped (|nodes|)
   double total_mass() const { return mass_.sum(); }
   double voxel_mass(int voxel) const { return voxel_mass_[voxel]; }
 
@@ -40,14 +41,18 @@ class ElasticModel {
   /// Rotations of the elements at x (identity for linear kinematics).
   std::vector<Mat3> rotations(const NodeField& x) const;
 
-  /// Stiffness matrix of an element at rest, N/m.
+  /// Stiffness matrix of an element at rest, N/m. Equal elements share one object.
   const ElementMatrix& stiffness(int element) const;
+
+  /// Differs between any two states of any models in this process: changes with each update.
+  std::uint64_t version() const { return version_; }
 
   /// Elements flat or inverted when rotations were computed last.
   int inverted_elements() const;
 
  private:
   struct Matrices;
+  void lump_masses();
   int level_;
   std::vector<Material> materials_;
   ElementKind kind_;
@@ -56,6 +61,7 @@ class ElasticModel {
   std::unique_ptr<Matrices> matrices_;
   Eigen::VectorXd mass_;
   std::vector<double> voxel_mass_;
+  std::uint64_t version_ = 0;
 };
 
 }  // namespace cfem_cutting

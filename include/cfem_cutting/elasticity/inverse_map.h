@@ -9,16 +9,18 @@ namespace cfem_cutting {
 
 /// Where a point of deformed space lies in the tissue.
 struct MaterialPoint {
-  Vec3 X;               ///< m, material space
-  int voxel = -1;       ///< the linked voxel in whose element X is embedded: the own voxel at X, or else the nearest one
+  Vec3 X;  ///< m, material space
+  int voxel =
+      -1;  ///< the linked voxel in whose element X is embedded: the own voxel at X, or else the nearest one
   bool inside = false;  ///< in uncut or cut tissue; false: in air beside it, X is extrapolated
 };
 
-/// Inverse of the deformation φ given by node positions: x ↦ X, by a spatial hash of the deformed elements and
-/// Newton's method on the trilinear map. A point is inside if X lies in a linked voxel of that very element and on
-/// the tissue's side of that voxel's surface and severed links (planes of their Hermite data). Points outside, up to
-/// `reach` blocks from tissue, are extrapolated from the nearest element; where that would land in the tissue of
-/// another element (an open cut), X is drawn back to the nearest point of the own element's tissue.
+/// Inverse of the deformation φ given by node positions: x ↦ X, by a spatial hash of the deformed elements
+/// and Newton's method on the trilinear map. A point is inside if X lies in a linked voxel of that very
+/// element and on the tissue's side of that voxel's surface and severed links (planes of their Hermite data).
+/// Points outside, up to `reach` blocks from tissue, are extrapolated from the nearest element; where that
+/// would land in the tissue of another element (an open cut), X is drawn back to the nearest point of the own
+/// element's tissue.
 class InverseMap {
  public:
   /// Keeps references: volume and mesh must outlive it; x is copied.
@@ -33,6 +35,10 @@ class InverseMap {
 
  private:
   struct Hash;
+  std::optional<MaterialPoint> inside_element(int element, const Vec3& x) const;
+  std::optional<MaterialPoint> beside_tissue(const Vec3& x) const;
+  bool in_tissue_of_another(const MaterialPoint& point) const;
+
   const VoxelVolume& volume_;
   const CompositeMesh& mesh_;
   NodeField x_;

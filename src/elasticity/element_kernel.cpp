@@ -1,0 +1,80 @@
+#include "element_kernel.h"
+
+namespace cfem_cutting {
+namespace {
+
+#define KERNEL_NAMESPACE baseline_float
+#define KERNEL_SCALAR float
+#define KERNEL_BYTES 16
+#include "element_kernel_body.h"
+#undef KERNEL_NAMESPACE
+#undef KERNEL_SCALAR
+#define KERNEL_NAMESPACE baseline_double
+#define KERNEL_SCALAR double
+#include "element_kernel_body.h"
+#undef KERNEL_NAMESPACE
+#undef KERNEL_SCALAR
+#undef KERNEL_BYTES
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define KERNEL_BYTES 32
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#define KERNEL_NAMESPACE avx2_float
+#define KERNEL_SCALAR float
+#include "element_kernel_body.h"
+#undef KERNEL_NAMESPACE
+#undef KERNEL_SCALAR
+#define KERNEL_NAMESPACE avx2_double
+#define KERNEL_SCALAR double
+#include "element_kernel_body.h"
+#undef KERNEL_NAMESPACE
+#undef KERNEL_SCALAR
+#pragma GCC pop_options
+#undef KERNEL_BYTES
+
+#define KERNEL_BYTES 64
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx2,fma")
+#define KERNEL_NAMESPACE avx512_float
+#define KERNEL_SCALAR float
+#include "element_kernel_body.h"
+#undef KERNEL_NAMESPACE
+#undef KERNEL_SCALAR
+#define KERNEL_NAMESPACE avx512_double
+#define KERNEL_SCALAR double
+#include "element_kernel_body.h"
+#undef KERNEL_NAMESPACE
+#undef KERNEL_SCALAR
+#pragma GCC pop_options
+#undef KERNEL_BYTES
+#endif
+
+struct Kernels {
+  void (*single)(const ElementBatch<float>&) = baseline_float::multiply;
+  void (*precise)(const ElementBatch<double>&) = baseline_double::multiply;
+};
+
+Kernels choose_kernels() {
+  Kernels kernels;
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (__builtin_cpu_supports("avx512f")) {
+    kernels = {avx512_float::multiply, avx512_double::multiply};
+  } else if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+    kernels = {avx2_float::multiply, avx2_double::multiply};
+  }
+#endif
+  return kernels;
+}
+
+const Kernels& kernels() {
+  static const Kernels chosen = choose_kernels();
+  return chosen;
+}
+
+}  // namespace
+
+void multiply(const ElementBatch<float>& batch) { kernels().single(batch); }
+void multiply(const ElementBatch<double>& batch) { kernels().precise(batch); }
+
+}  // namespace cfem_cutting

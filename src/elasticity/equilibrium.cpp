@@ -1,0 +1,134 @@
+#include "equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "union_find.h"
+#include "workspace.h"
+
+namespace cfem_cutting {
+namespace {
+
+constexpr double kWeakSpring = 1e-3;       // of E h
+constexpr double kNegligibleForce = 1e-6;  // of E h²
+constexpr double kLoosestSolve = 1e-2;     // inner tolerance: the tangent is inexact anyway
+constexpr double kTightestSolve = 1e-13;
+
+}  // namespace
+
+Equilibrium::Equilibrium(const ElasticModel& model, const NodeField& start, const Vec3& gravity,
+                         const HeldNodes& held, const std::vector<PointConstraint>& constraints)
+    : model_(model),
+      start_(start),
+      held_(held),
+      constraints_(constraints),
+      spring_(Eigen::VectorXd::Zero(start.cols())) {
+  find_floating_nodes();
+  weight_ = gravity * model.mass().transpose();
+  for (Eigen::Index n = 0; n < start.cols(); ++n)
+    if (spring_[n] > 0.0) weight_.col(n).setZero();
+}
+
+void Equilibrium::find_floating_nodes() {
+  UnionFind sets(model_.mesh().node_count());
+  for (const CompositeElement& element : model_.mesh().elements())
+    for (int node : element.nodes) sets.unite(element.nodes[0], node);
+  std::vector<char> grounded(model_.mesh().node_count(), 0);
+  for (int node : held_.nodes) grounded[sets.find(node)] = 1;
+  for (const PointConstraint& c : constraints_) grounded[sets.find(c.at.nodes[0])] = 1;
+
+  // The stiffest element stands for E h.
+  double stiffness = 0.0;
+  for (int e = 0; e < static_cast<int>(model_.mesh().elements().size()); ++e)
+    stiffness = std::max(stiffness, model_.stiffness(e).trace() / 24.0);
+  force_unit_ = stiffness * model_.mesh().block_size().mean();
+  for (int node = 0; node < model_.mesh().node_count(); ++node)
+    if (!grounded[sets.find(node)]) spring_[node] = kWeakSpring * stiffness;
+}
+
+void Equilibrium::clear_held(NodeField& field) const {
+  for (int node : held_.nodes) field.col(node).setZero();
+}
+
+double Equilibrium::energy(const NodeField& x) const {
+  const NodeField moved = x - start_;
+  double sum = model_.energy(x) - weight_.cwiseProduct(moved).sum();
+  for (Eigen::Index n = 0; n < x.cols(); ++n) sum += 0.5 * spring_[n] * moved.col(n).squaredNorm();
+  for (const PointConstraint& c : constraints_) {
+    const double gap = c.target - c.direction.dot(c.at.apply(x));
+    sum += c.multiplier * gap + 0.5 * c.stiffness * gap * gap;
+  }
+  return sum;
+}
+
+NodeField Equilibrium::forces(const NodeField& x) const {
+  NodeField forces = model_.forces(x) + weight_ - (x - start_) * spring_.asDiagonal();
+  add_constraint_forces(constraints_, x, forces);
+  return forces;
+}
+
+double Equilibrium::load(const NodeField& forces) const {
+  double squares = weight_.squaredNorm();
+  for (int node : held_.nodes) squares += forces.col(node).squaredNorm();
+  return std::max(std::sqrt(squares), kNegligibleForce * force_unit_);
+}
+
+SolveReport Equilibrium::solve_newton(ElementProduct& product, const SolverOptions& options, NodeField& x,
+                                      int max_newton) const {
+  SolveReport total;
+  double initial = 0.0;
+  for (int newton = 0;; ++newton) {
+    NodeField f = forces(x);
+    const double reference = std::max(load(f), kLoosestSolve * initial);
+    clear_held(f);
+    bool held_in_place = true;
+    for (std::size_t i = 0; i < held_.nodes.size(); ++i)
+      held_in_place = held_in_place && x.col(held_.nodes[i]) == held_.positions[i];
+    initial = std::max(initial, f.norm());
+    total.residual = f.norm() / reference;
+    total.converged = held_in_place && total.residual <= options.tolerance;
+    if (total.converged || newton == max_newton) return total;
+    const double inner =
+        std::clamp(0.3 * options.tolerance / std::max(total.residual, 1e-300), kTightestSolve, kLoosestSolve);
+    total.iterations += newton_step(product, options, inner, f, x).iterations;
+  }
+}
+
+SolveReport Equilibrium::newton_step(ElementProduct& product, const SolverOptions& options, double tolerance,
+                                     const NodeField& f, NodeField& x) const {
+  const Precision precision = precision_for(tolerance);
+  product.set(model_, model_.rotations(x), precision);
+  LinearSystem system(product, spring_, 1.0, constraints_, held_.nodes, precision);
+  system.prepare(model_);
+  NodeField dx = NodeField::Zero(3, x.cols());
+  bool held_moves = false;
+  for (std::size_t i = 0; i < held_.nodes.size(); ++i) {
+    dx.col(held_.nodes[i]) = held_.positions[i] - x.col(held_.nodes[i]);
+    held_moves = held_moves || !dx.col(held_.nodes[i]).isZero(0.0);
+  }
+  const SolveReport report =
+      solve(system, f, dx, tolerance, options.max_iterations, model_.mesh().block_size().mean());
+  if (held_moves) {
+    x += dx;
+    for (std::size_t i = 0; i < held_.nodes.size(); ++i) x.col(held_.nodes[i]) = held_.positions[i];
+  } else {
+    search_line(dx, f, x);
+  }
+  return report;
+}
+
+/// Backtracking to a sufficient decrease of the energy (Armijo 1966), up to its rounding.
+void Equilibrium::search_line(const NodeField& dx, const NodeField& f, NodeField& x) const {
+  const double slope = -f.cwiseProduct(dx).sum();
+  const double before = energy(x);
+  const double rounding =
+      1e-12 * (std::abs(before) + kNegligibleForce * force_unit_ * model_.mesh().block_size().mean());
+  double length = 1.0;
+  for (int halving = 0; halving < 12; ++halving) {
+    if (energy(x + length * dx) <= before + 1e-4 * length * slope + rounding) break;
+    length *= 0.5;
+  }
+  x += length * dx;
+}
+
+}  // namespace cfem_cutting

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "linear_system.h"
+
+namespace cfem_cutting {
+
+/// A static problem: elastic energy, weight, constraints, and weak springs on pieces that nothing holds.
+class Equilibrium {
+ public:
+  /// @param start positions at which the springs of floating nodes are at rest, m
+  Equilibrium(const ElasticModel& model, const NodeField& start, const Vec3& gravity, const HeldNodes& held,
+              const std::vector<PointConstraint>& constraints);
+
+  /// Newton's method with backtracking. The tangent leaves out ∂R/∂x, so convergence is linear, at a rate of
+  /// about the strain.
+  SolveReport solve_newton(ElementProduct& product, const SolverOptions& options, NodeField& x,
+                           int max_newton) const;
+
+ private:
+  double energy(const NodeField& x) const;     // J
+  NodeField forces(const NodeField& x) const;  // N, also on held nodes
+  double load(const NodeField& forces) const;  // N, size of what acts on the tissue
+  SolveReport newton_step(ElementProduct& product, const SolverOptions& options, double tolerance,
+                          const NodeField& forces, NodeField& x) const;
+  void search_line(const NodeField& dx, const NodeField& forces, NodeField& x) const;
+  void find_floating_nodes();
+  void clear_held(NodeField& field) const;
+
+  const ElasticModel& model_;
+  NodeField start_;
+  HeldNodes held_;
+  const std::vector<PointConstraint>& constraints_;
+  Eigen::VectorXd spring_;  // N/m, per node; 0 unless floating
+  NodeField weight_;        // N
+  double force_unit_;       // N, E h²
+};
+
+}  // namespace cfem_cutting

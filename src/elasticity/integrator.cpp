@@ -1,0 +1,54 @@
+#include "cfem_cutting/elasticity/integrator.h"
+
+#include "equilibrium.h"
+#include "linear_system.h"
+#include "workspace.h"
+
+namespace cfem_cutting {
+
+Integrator::Integrator(const SolverOptions& options)
+    : options_(options), workspace_(std::make_unique<Workspace>(options.threads)) {}
+
+Integrator::~Integrator() = default;
+
+SolveReport Integrator::step(const ElasticModel& model, ElasticState& state, double dt, const Vec3& gravity,
+                             const HeldNodes& held, const std::vector<PointConstraint>& constraints) {
+  const Precision precision = precision_for(options_.tolerance);
+  workspace_->product.set(model, model.rotations(state.x), precision);
+
+  const double inertia = 1.0 / (dt * dt) + options_.rayleigh_mass / dt;
+  LinearSystem system(workspace_->product, inertia * model.mass(), 1.0 + options_.rayleigh_stiffness / dt,
+                      constraints, held.nodes, precision);
+  system.prepare(model);
+
+  NodeField b =
+      model.forces(state.x) + state.v * (model.mass() / dt).asDiagonal() + gravity * model.mass().transpose();
+  add_constraint_forces(constraints, state.x, b);
+  NodeField dx = dt * state.v;
+  for (std::size_t i = 0; i < held.nodes.size(); ++i)
+    dx.col(held.nodes[i]) = held.positions[i] - state.x.col(held.nodes[i]);
+
+  const SolveReport report =
+      solve(system, b, dx, options_.tolerance, options_.max_iterations, model.mesh().block_size().mean());
+  state.x += dx;
+  state.v = dx / dt;
+  return report;
+}
+
+SolveReport Integrator::equilibrate(const ElasticModel& model, NodeField& x, const Vec3& gravity,
+                                    const HeldNodes& held, const std::vector<PointConstraint>& constraints,
+                                    int max_newton) {
+  Equilibrium equilibrium(model, x, gravity, held, constraints);
+  return equilibrium.solve_newton(workspace_->product, options_, x, max_newton);
+}
+
+std::vector<Vec3> reactions(const ElasticModel& model, const NodeField& x, const Vec3& gravity,
+                            const HeldNodes& held, const std::vector<PointConstraint>& constraints) {
+  NodeField forces = model.forces(x) + gravity * model.mass().transpose();
+  add_constraint_forces(constraints, x, forces);
+  std::vector<Vec3> reactions;
+  for (int node : held.nodes) reactions.push_back(-forces.col(node));
+  return reactions;
+}
+
+}  // namespace cfem_cutting

@@ -1,0 +1,137 @@
+#include "cfem_cutting/elasticity/inverse_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "element_hash.h"
+#include "trilinear_inverse.h"
+
+namespace cfem_cutting {
+namespace {
+
+constexpr double kOnBoundary = 1e-9;  // of a block or a voxel
+
+/// Elements with a linked voxel. (A hosted voxel alone is reached through its host's element.)
+std::vector<int> linked_elements(const VoxelVolume& volume, const CompositeMesh& mesh) {
+  std::vector<int> elements;
+  for (std::size_t e = 0; e < mesh.elements().size(); ++e) {
+    const std::vector<int>& voxels = mesh.elements()[e].voxels;
+    if (std::any_of(voxels.begin(), voxels.end(), [&](int v) { return volume.voxel(v).linked(); }))
+      elements.push_back(static_cast<int>(e));
+  }
+  return elements;
+}
+
+Eigen::Matrix<double, 3, 8> corners_of(const CompositeMesh& mesh, const NodeField& x, int element) {
+  Eigen::Matrix<double, 3, 8> corners;
+  for (int n = 0; n < 8; ++n) corners.col(n) = x.col(mesh.elements()[element].nodes[n]);
+  return corners;
+}
+
+Box voxel_box(const VoxelVolume& volume, int v) {
+  const Vec3 corner = volume.lattice().corner(volume.voxel(v).index);
+  return {corner, corner + volume.lattice().spacing};
+}
+
+/// The nearest linked voxel of an element, and the distance of X from its box (m).
+std::pair<double, int> nearest_own_voxel(const VoxelVolume& volume, const CompositeElement& element,
+                                         const Vec3& X) {
+  std::pair<double, int> nearest{std::numeric_limits<double>::infinity(), -1};
+  for (int v : element.voxels)
+    if (volume.voxel(v).linked()) nearest = std::min(nearest, {voxel_box(volume, v).exteriorDistance(X), v});
+  return nearest;
+}
+
+/// How far X lies beyond a voxel's surface or severed link in a direction, along its normal, m; ≤ 0: on the
+/// tissue's side.
+double depth_beyond(const VoxelVolume& volume, int v, int direction, const Vec3& X) {
+  if (volume.voxel(v).link[direction] == LinkState::kIntact) return -std::numeric_limits<double>::infinity();
+  const SurfacePoint& crossing = volume.crossing(v, direction);
+  return (X - crossing.point).dot(crossing.normal);
+}
+
+bool on_tissue_side(const VoxelVolume& volume, int v, const Vec3& X) {
+  const double tolerance = kOnBoundary * volume.lattice().spacing.minCoeff();
+  for (int direction = 0; direction < kDirections; ++direction)
+    if (depth_beyond(volume, v, direction, X) > tolerance) return false;
+  return true;
+}
+
+/// The nearest point to X in a voxel's tissue: in its box, then pushed onto the planes that it lies beyond.
+Vec3 draw_back(const VoxelVolume& volume, int v, const Vec3& X) {
+  const Box box = voxel_box(volume, v);
+  Vec3 nearest = X.cwiseMax(box.min()).cwiseMin(box.max());
+  for (int direction = 0; direction < kDirections; ++direction) {
+    const double depth = depth_beyond(volume, v, direction, nearest);
+    if (depth > 0.0) nearest -= depth * volume.crossing(v, direction).normal;
+  }
+  return nearest.cwiseMax(box.min()).cwiseMin(box.max());
+}
+
+}  // namespace
+
+struct InverseMap::Hash {
+  ElementHash elements;
+};
+
+InverseMap::InverseMap(const VoxelVolume& volume, const CompositeMesh& mesh, NodeField x, double reach)
+    : volume_(volume), mesh_(mesh), x_(std::move(x)), reach_(reach) {
+  hash_.reset(new Hash{ElementHash(mesh_, x_, linked_elements(volume_, mesh_))});
+}
+
+InverseMap::~InverseMap() = default;
+
+Vec3 InverseMap::forward(const MaterialPoint& point) const {
+  return mesh_.embed(point.voxel, point.X).apply(x_);
+}
+
+std::optional<MaterialPoint> InverseMap::operator()(const Vec3& x) const {
+  std::optional<MaterialPoint> inside;
+  hash_->elements.visit_at(x, [&](int element) {
+    inside = inside_element(element, x);
+    return inside.has_value();
+  });
+  return inside ? inside : beside_tissue(x);
+}
+
+/// The point if it lies in the tissue of this very element.
+std::optional<MaterialPoint> InverseMap::inside_element(int element, const Vec3& x) const {
+  const std::optional<Vec3> t = invert_trilinear(corners_of(mesh_, x_, element), x, 0.5 + kOnBoundary);
+  if (!t) return std::nullopt;
+  const Vec3 X = mesh_.block_corner(element) + t->cwiseProduct(mesh_.block_size());
+  const Vec3i first = mesh_.elements()[element].block * (1 << mesh_.level());
+  const Vec3i last = first + Vec3i::Constant((1 << mesh_.level()) - 1);
+  const int v = volume_.find(volume_.lattice().voxel_at(X).cwiseMax(first).cwiseMin(last));
+  if (v < 0 || !volume_.voxel(v).linked() || mesh_.element_of_voxel(v) != element) return std::nullopt;
+  if (!on_tissue_side(volume_, v, X)) return std::nullopt;
+  return MaterialPoint{X, v, true};
+}
+
+/// The point in air, by the element whose tissue is nearest to it in material space.
+std::optional<MaterialPoint> InverseMap::beside_tissue(const Vec3& x) const {
+  const double reach = reach_ * mesh_.block_size().maxCoeff();
+  double best = reach * (1.0 + kOnBoundary);
+  std::optional<MaterialPoint> nearest;
+  for (const auto& [bounds_distance, element] : hash_->elements.near(x, reach)) {
+    const double least_stretch = 0.5;  // beyond a doubling of lengths, elements far off are not looked at
+    if (least_stretch * bounds_distance > best) break;
+    const std::optional<Vec3> t = invert_trilinear(corners_of(mesh_, x_, element), x, 1.0 + reach_);
+    if (!t) continue;
+    const Vec3 X = mesh_.block_corner(element) + t->cwiseProduct(mesh_.block_size());
+    const auto [distance, v] = nearest_own_voxel(volume_, mesh_.elements()[element], X);
+    if (distance >= best) continue;
+    best = distance;
+    nearest = MaterialPoint{X, v, false};
+  }
+  if (nearest && in_tissue_of_another(*nearest)) nearest->X = draw_back(volume_, nearest->voxel, nearest->X);
+  return nearest;
+}
+
+bool InverseMap::in_tissue_of_another(const MaterialPoint& point) const {
+  const int there = volume_.find(volume_.lattice().voxel_at(point.X));
+  return there >= 0 && volume_.voxel(there).linked() &&
+         mesh_.element_of_voxel(there) != mesh_.element_of_voxel(point.voxel);
+}
+
+}  // namespace cfem_cutting
