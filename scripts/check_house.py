@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the house's rules: includes point downward only, the core is free of ROS, files and functions are short."""
+"""Checks the house's rules: includes point downward only, the core is free of ROS, files and functions are short,
+and ROS tests are run so that they can fail."""
 
 import pathlib
 import re
@@ -82,6 +83,13 @@ def check_lengths(path, lines):
             opened.pop(indentation, None)
 
 
+def check_rostests(path, lines):
+    """`rostest --text` exits with 0 whatever happens, so that a test run with it cannot fail."""
+    for number, line in enumerate(lines, 1):
+        if re.search(r"\brostest\b.*\s(--text|-t)\b", line.split("#")[0]):
+            yield f"{path}:{number}: 'rostest --text' never reports a failure; leave --text out"
+
+
 def main():
     package = pathlib.Path(__file__).resolve().parent.parent
     complaints = []
@@ -90,6 +98,8 @@ def main():
         relative = path.relative_to(package)
         complaints += check_includes(relative, lines)
         complaints += check_lengths(relative, lines)
+    for path in sorted((package / "cmake").glob("*.cmake")):
+        complaints += check_rostests(path.relative_to(package), path.read_text(encoding="utf-8").splitlines())
     print("\n".join(complaints), end="\n" if complaints else "")
     return 1 if complaints else 0
 
