@@ -9,11 +9,13 @@
 namespace cfem_cutting {
 namespace {
 
-Vec3i block_of(const Vec3i& voxel, int level) {
-  return {voxel.x() >> level, voxel.y() >> level, voxel.z() >> level};
-}
-
 Vec3i corner_bits(int n) { return {n & 1, (n >> 1) & 1, (n >> 2) & 1}; }
+
+Vec3i smallest_index(const VoxelVolume& volume) {
+  Vec3i smallest = volume.lattice().size;
+  for (const Voxel& voxel : volume.voxels()) smallest = smallest.cwiseMin(voxel.index);
+  return smallest;
+}
 
 /// Calls f(v, w) once for every pair of joined voxels: by an intact link, or as hosted voxel and host.
 template <typename Function>
@@ -30,22 +32,20 @@ void for_each_joint(const VoxelVolume& volume, const Function& f) {
 }
 
 /// Root voxel of the component inside its block, per voxel.
-std::vector<int> components_in_blocks(const VoxelVolume& volume, int level) {
-  UnionFind sets(static_cast<int>(volume.voxels().size()));
+std::vector<int> components_in_blocks(const VoxelVolume& volume, const std::vector<Vec3i>& block) {
+  UnionFind sets(static_cast<int>(block.size()));
   for_each_joint(volume, [&](int v, int w) {
-    if (block_of(volume.voxel(v).index, level) == block_of(volume.voxel(w).index, level)) sets.unite(v, w);
+    if (block[v] == block[w]) sets.unite(v, w);
   });
-  std::vector<int> root(volume.voxels().size());
+  std::vector<int> root(block.size());
   for (std::size_t v = 0; v < root.size(); ++v) root[v] = sets.find(static_cast<int>(v));
   return root;
 }
 
 /// Voxels in the order of their elements: by block (z, y, x), then by the component's first voxel.
-std::vector<int> sort_by_element(const VoxelVolume& volume, int level, const std::vector<int>& root) {
+std::vector<int> sort_by_element(const std::vector<Vec3i>& block, const std::vector<int>& root) {
   std::vector<int> order(root.size());
   std::iota(order.begin(), order.end(), 0);
-  std::vector<Vec3i> block(root.size());
-  for (std::size_t v = 0; v < root.size(); ++v) block[v] = block_of(volume.voxels()[v].index, level);
   const auto key = [&](int v) {
     return std::make_tuple(block[v].z(), block[v].y(), block[v].x(), root[v], v);
   };
@@ -87,12 +87,15 @@ Vec3 Embedding::apply(const NodeField& field) const {
 
 CompositeMesh::CompositeMesh(const VoxelVolume& volume, int level)
     : level_(level),
+      first_voxel_(smallest_index(volume)),
       block_size_(volume.lattice().spacing * (1 << level)),
       element_of_voxel_(volume.voxels().size(), -1) {
-  const std::vector<int> root = components_in_blocks(volume, level);
-  for (int v : sort_by_element(volume, level, root)) {
+  std::vector<Vec3i> block(volume.voxels().size());
+  for (std::size_t v = 0; v < block.size(); ++v) block[v] = block_of(volume.voxels()[v].index);
+  const std::vector<int> root = components_in_blocks(volume, block);
+  for (int v : sort_by_element(block, root)) {
     const bool starts_element = elements_.empty() || root[elements_.back().voxels.front()] != root[v];
-    if (starts_element) elements_.push_back({block_of(volume.voxel(v).index, level), {}, {}});
+    if (starts_element) elements_.push_back({block[v], {}, {}});
     elements_.back().voxels.push_back(v);
     element_of_voxel_[v] = static_cast<int>(elements_.size()) - 1;
   }
@@ -105,7 +108,8 @@ CompositeMesh::CompositeMesh(const VoxelVolume& volume, int level)
   rest_.resize(3, number_nodes(nodes, elements_));
   for (const CompositeElement& element : elements_)
     for (int n = 0; n < 8; ++n)
-      rest_.col(element.nodes[n]) = volume.lattice().corner((element.block + corner_bits(n)) * (1 << level));
+      rest_.col(element.nodes[n]) =
+          volume.lattice().corner(first_voxel_ + (element.block + corner_bits(n)) * (1 << level));
 }
 
 Embedding CompositeMesh::embed_in_element(int element, const Vec3& X) const {

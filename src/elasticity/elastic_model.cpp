@@ -61,13 +61,15 @@ struct ElasticModel::Matrices {
     return material;
   }
 
-  std::shared_ptr<const ElementData> build(const VoxelVolume& volume, const CompositeElement& element) const {
+  std::shared_ptr<const ElementData> build(const VoxelVolume& volume, const CompositeMesh& mesh,
+                                           const CompositeElement& element) const {
     const int full_material = full_block_material(volume, element);
     if (full_material >= 0) return full_block[full_material];
+    const Vec3i first = mesh.first_voxel() + element.block * (1 << level);
     std::vector<BlockWeights> weights(material_count, BlockWeights::Zero());
     for (int v : element.voxels)
-      weights[material_of_voxel[v]] += voxel_weights(volume.voxel(v).index - element.block * (1 << level),
-                                                     level, volume.voxel(v).fill, block_volume);
+      weights[material_of_voxel[v]] +=
+          voxel_weights(volume.voxel(v).index - first, level, volume.voxel(v).fill, block_volume);
     return std::make_shared<const ElementData>(assembler.assemble(weights));
   }
 
@@ -78,7 +80,7 @@ struct ElasticModel::Matrices {
     for (const CompositeElement& element : mesh.elements()) {
       const int old = before ? before->element_of_voxel(element.voxels.front()) : -1;
       const bool kept = old >= 0 && before->elements()[old].voxels == element.voxels;
-      data.push_back(kept ? of_element[old] : build(volume, element));
+      data.push_back(kept ? of_element[old] : build(volume, mesh, element));
     }
     of_element = std::move(data);
   }

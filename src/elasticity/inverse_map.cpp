@@ -100,7 +100,7 @@ std::optional<MaterialPoint> InverseMap::inside_element(int element, const Vec3&
   const std::optional<Vec3> t = invert_trilinear(corners_of(mesh_, x_, element), x, 0.5 + kOnBoundary);
   if (!t) return std::nullopt;
   const Vec3 X = mesh_.block_corner(element) + t->cwiseProduct(mesh_.block_size());
-  const Vec3i first = mesh_.elements()[element].block * (1 << mesh_.level());
+  const Vec3i first = mesh_.first_voxel() + mesh_.elements()[element].block * (1 << mesh_.level());
   const Vec3i last = first + Vec3i::Constant((1 << mesh_.level()) - 1);
   const int v = volume_.find(volume_.lattice().voxel_at(X).cwiseMax(first).cwiseMin(last));
   if (v < 0 || !volume_.voxel(v).linked() || mesh_.element_of_voxel(v) != element) return std::nullopt;

@@ -73,11 +73,29 @@ void LinearSystem::prepare(const ElasticModel& model) {
     trace += inverse_blocks_[n].trace();
   }
   node_stiffness_ = trace / (3.0 * inverse_blocks_.size());
-  for (const PointConstraint& c : constraints_)
-    for (int n = 0; n < 8; ++n)
-      inverse_blocks_[c.at.nodes[n]] +=
-          c.stiffness * c.at.weights[n] * c.at.weights[n] * c.direction * c.direction.transpose();
   for (Mat3& block : inverse_blocks_) block = block.inverse().eval();
+  for (int node : held_) inverse_blocks_[node].setZero();
+  prepare_constraints();
+}
+
+void LinearSystem::prepare_constraints() {
+  for (const PointConstraint& c : constraints_)
+    if (c.stiffness > 0.0) stiff_constraints_.push_back(&c);
+  const int count = static_cast<int>(stiff_constraints_.size());
+  if (count == 0) return;
+  Eigen::MatrixXd compliance(count, count);
+  NodeField moved = NodeField::Zero(3, static_cast<Eigen::Index>(inverse_blocks_.size()));
+  for (int i = 0; i < count; ++i) {
+    const Embedding& at = stiff_constraints_[i]->at;
+    for (int n = 0; n < 8; ++n)
+      moved.col(at.nodes[n]) +=
+          at.weights[n] * inverse_blocks_[at.nodes[n]] * stiff_constraints_[i]->direction;
+    for (int j = 0; j < count; ++j)
+      compliance(j, i) = stiff_constraints_[j]->direction.dot(stiff_constraints_[j]->at.apply(moved));
+    compliance(i, i) += 1.0 / stiff_constraints_[i]->stiffness;
+    for (int node : at.nodes) moved.col(node).setZero();
+  }
+  constraint_compliance_.compute(compliance);
 }
 
 void LinearSystem::apply(const NodeField& p, NodeField& y) const {
@@ -93,6 +111,16 @@ void LinearSystem::apply(const NodeField& p, NodeField& y) const {
 NodeField LinearSystem::precondition(const NodeField& r) const {
   NodeField z(3, r.cols());
   for (Eigen::Index n = 0; n < r.cols(); ++n) z.col(n).noalias() = inverse_blocks_[n] * r.col(n);
+  if (stiff_constraints_.empty()) return z;
+  Eigen::VectorXd along(stiff_constraints_.size());
+  for (std::size_t i = 0; i < stiff_constraints_.size(); ++i)
+    along[i] = stiff_constraints_[i]->direction.dot(stiff_constraints_[i]->at.apply(z));
+  along = constraint_compliance_.solve(along).eval();
+  for (std::size_t i = 0; i < stiff_constraints_.size(); ++i) {
+    const PointConstraint& c = *stiff_constraints_[i];
+    for (int n = 0; n < 8; ++n)
+      z.col(c.at.nodes[n]) -= c.at.weights[n] * along[i] * inverse_blocks_[c.at.nodes[n]] * c.direction;
+  }
   return z;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <vector>
 
 #include "cfem_cutting/elasticity/integrator.h"
@@ -17,7 +18,8 @@ class LinearSystem {
                const std::vector<PointConstraint>& constraints, const std::vector<int>& held,
                Precision precision);
 
-  /// Builds the block-Jacobi preconditioner.
+  /// Builds the preconditioner: the inverse of the nodes' diagonal blocks together with the constraints,
+  /// which are stiff and few (Woodbury's formula).
   void prepare(const ElasticModel& model);
 
   void apply(const NodeField& p, NodeField& y) const;
@@ -28,13 +30,17 @@ class LinearSystem {
   double node_stiffness() const { return node_stiffness_; }
 
  private:
+  void prepare_constraints();
+
   const ElementProduct& product_;
   Eigen::VectorXd node_diagonal_;
   double stiffness_factor_;
   const std::vector<PointConstraint>& constraints_;
   const std::vector<int>& held_;
   Precision precision_;
-  std::vector<Mat3> inverse_blocks_;
+  std::vector<Mat3> inverse_blocks_;  // m/N, D⁻¹; zero for held nodes
+  std::vector<const PointConstraint*> stiff_constraints_;
+  Eigen::LDLT<Eigen::MatrixXd> constraint_compliance_;  // m/N, k⁻¹ + CᵀD⁻¹C
   double node_stiffness_ = 0.0;
 };
 

@@ -13,7 +13,7 @@ using NodeField = Eigen::Matrix3Xd;
 /// One component of a block's voxels: a hexahedron with nodes at the block's corners; node a + 2(b + 2c)
 /// lies at the corner (a, b, c).
 struct CompositeElement {
-  Vec3i block;              ///< block index: voxel index >> level
+  Vec3i block;              ///< (voxel index − first_voxel()) >> level
   std::vector<int> voxels;  ///< linked and hosted voxels, ascending
   std::array<int, 8> nodes{};
 };
@@ -36,6 +36,14 @@ class CompositeMesh {
   CompositeMesh(const VoxelVolume& volume, int level);
 
   int level() const { return level_; }
+
+  /// Lattice index at which block (0, 0, 0) starts: the smallest along each axis of any voxel, so that a box
+  /// whose edges are whole blocks consists of full blocks.
+  const Vec3i& first_voxel() const { return first_voxel_; }
+  Vec3i block_of(const Vec3i& voxel) const {
+    return (voxel - first_voxel_).unaryExpr([this](int i) { return i >> level_; });
+  }
+
   const std::vector<CompositeElement>& elements() const { return elements_; }
   const NodeField& rest() const { return rest_; }  ///< m, material positions of the nodes
   int node_count() const { return static_cast<int>(rest_.cols()); }
@@ -49,6 +57,7 @@ class CompositeMesh {
 
  private:
   int level_;
+  Vec3i first_voxel_;
   Vec3 block_size_;
   std::vector<CompositeElement> elements_;
   std::vector<int> element_of_voxel_;
