@@ -9,7 +9,9 @@ namespace cfem_cutting {
 
 /// Cuts a stream of stamped tool poses into steps of equal length that end on multiples of the time step;
 /// poses are interpolated at the steps' ends, and those that fall inside a step are passed on, so the result
-/// does not depend on the rate of the poses. Used by the node and offline alike.
+/// does not depend on the rate of the poses. The first step ends at the first multiple from the first stamp
+/// on. Within a gap the blade is held at the last pose before it; the step that reaches the gap's end starts
+/// there with the front made anew. Used by the node and offline alike.
 class Timeline {
  public:
   /// @param time_step s
@@ -41,6 +43,9 @@ class Timeline {
     double time;
     Pose X_TB;
   };
+  StepInput step_to(std::int64_t end);
+  void begin(StepInput& input);
+  bool is_gap(const Stamped& a, const Stamped& b) const;
   Pose at(double time) const;
 
   double time_step_;

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cfem_cutting/io/output_folder.h"
+#include "cfem_cutting/simulation/simulation.h"
+
+namespace cfem_cutting {
+
+/// Figures over a run, gathered step by step.
+class RunStatistics {
+ public:
+  void add(const StepReport& report);
+
+  int steps = 0;
+  int fracture_events = 0;
+  double cut_area = 0.0;       ///< m²
+  double fracture_work = 0.0;  ///< J
+  double blade_work = 0.0;     ///< J
+  double peak_force = 0.0;     ///< N
+  int max_iterations = 0;
+  int unconverged_steps = 0;
+  int steps_with_inverted_elements = 0;
+  double max_blade_distance = 0.0;     ///< m
+  double mean_force() const;           ///< N, over steps in contact
+  double mean_blade_distance() const;  ///< m, over steps in contact
+
+ private:
+  int steps_in_contact_ = 0;
+  double force_sum_ = 0.0;
+  double distance_sum_ = 0.0;
+};
+
+/// Writes summary.json; its surface figures are those of the undeformed surface.
+/// @param warnings beside those of the simulation
+/// @throw FileError
+void write_summary(const OutputFolder& folder, const Simulation& simulation, const RunStatistics& statistics,
+                   std::vector<std::string> warnings);
+
+/// Writes timing.json.
+/// @param wall_time s
+/// @param step_times ms
+/// @throw FileError
+void write_timing(const OutputFolder& folder, double wall_time, std::vector<double> step_times);
+
+}  // namespace cfem_cutting

@@ -1,0 +1,36 @@
+#include <algorithm>
+#include <exception>
+#include <iostream>
+
+#include "cfem_cutting/geometry/errors.h"
+#include "cfem_cutting/io/replay.h"
+
+namespace cfem_cutting {
+namespace {
+
+constexpr int kBadInput = 2;
+
+int fail(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::cerr << "replay: " << message << std::endl;
+  return kBadInput;
+}
+
+}  // namespace
+
+int replay_main(int argc, const char* const* argv, const BagReader& read_bag) try {
+  const ReplayOptions options = parse_replay_options(argc, argv);
+  if (options.help)
+    std::cout << options.help_text;
+  else if (options.list_parameters)
+    std::cout << parameters_markdown();
+  else
+    run_replay(options, read_bag);
+  return 0;
+} catch (const std::bad_alloc&) {
+  return fail("not enough memory for this tissue: a larger tissue.voxel_size needs less");
+} catch (const std::exception& error) {
+  return fail(error.what());
+}
+
+}  // namespace cfem_cutting

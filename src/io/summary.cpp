@@ -1,0 +1,113 @@
+#include "cfem_cutting/io/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace cfem_cutting {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void write_json(const OutputFolder& folder, const std::string& name, const Json& json) {
+  std::ofstream file = folder.create(name);
+  file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  close_checked(file, name);
+}
+
+double ratio(double sum, int count) { return count > 0 ? sum / count : 0.0; }
+
+Json surface_figures(const TissueSurface& surface) {
+  const SurfaceQuality quality = assess(surface.rest());
+  return {{"vertices", surface.vertices.size()},
+          {"triangles", surface.triangles.size()},
+          {"closed", quality.defects.closed()},
+          {"manifold", quality.defects.manifold()},
+          {"volume_m3", quality.volume}};
+}
+
+std::vector<std::string> run_warnings(const RunStatistics& statistics) {
+  std::vector<std::string> warnings;
+  if (statistics.unconverged_steps > 0)
+    warnings.push_back("the solver did not converge in " + std::to_string(statistics.unconverged_steps) +
+                       " of " + std::to_string(statistics.steps) + " steps");
+  if (statistics.steps_with_inverted_elements > 0)
+    warnings.push_back("elements were flat or inverted in " +
+                       std::to_string(statistics.steps_with_inverted_elements) + " steps");
+  return warnings;
+}
+
+/// The smallest value that this part of the values does not exceed (nearest rank).
+double percentile(const std::vector<double>& sorted, double part) {
+  if (sorted.empty()) return 0.0;
+  const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(sorted.size())));
+  return sorted[std::max<std::size_t>(rank, 1) - 1];
+}
+
+}  // namespace
+
+void RunStatistics::add(const StepReport& report) {
+  ++steps;
+  fracture_events += static_cast<int>(report.events.size());
+  for (const FractureEvent& event : report.events) fracture_work += event.fracture_work;
+  cut_area = report.cut_area;
+  blade_work = report.blade_work;
+  max_iterations = std::max(max_iterations, report.iterations);
+  unconverged_steps += !report.converged;
+  steps_with_inverted_elements += report.inverted_elements > 0;
+  max_blade_distance = std::max(max_blade_distance, report.blade_distance);
+  const double force = report.spatial.force.norm();
+  peak_force = std::max(peak_force, force);
+  if (report.contacts.empty()) return;
+  ++steps_in_contact_;
+  force_sum_ += force;
+  distance_sum_ += report.blade_distance;
+}
+
+double RunStatistics::mean_force() const { return ratio(force_sum_, steps_in_contact_); }
+double RunStatistics::mean_blade_distance() const { return ratio(distance_sum_, steps_in_contact_); }
+
+void write_summary(const OutputFolder& folder, const Simulation& simulation, const RunStatistics& statistics,
+                   std::vector<std::string> warnings) {
+  const CompositeMesh& mesh = simulation.model().mesh();
+  const VoxelVolume& volume = simulation.volume();
+  for (const auto& more : {simulation.warnings(), run_warnings(statistics)})
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  write_json(folder, "summary.json",
+             {{"steps", statistics.steps},
+              {"sim_time_s", statistics.steps * simulation.config().dynamics.time_step},
+              {"voxels", volume.voxels().size()},
+              {"composite_elements", mesh.elements().size()},
+              {"dofs", 3 * mesh.node_count()},
+              {"links_total", volume.link_count()},
+              {"links_severed", volume.severed_count()},
+              {"pieces", simulation.pieces().count()},
+              {"piece_volumes_m3", simulation.pieces().volumes},
+              {"mass_kg", simulation.model().total_mass()},
+              {"cut_area_m2", statistics.cut_area},
+              {"fracture_events", statistics.fracture_events},
+              {"fracture_work_j", statistics.fracture_work},
+              {"blade_work_j", statistics.blade_work},
+              {"peak_force_n", statistics.peak_force},
+              {"mean_force_n", statistics.mean_force()},
+              {"max_solver_iterations", statistics.max_iterations},
+              {"surface", surface_figures(simulation.surface())},
+              {"blade_distance",
+               {{"max_m", statistics.max_blade_distance}, {"mean_m", statistics.mean_blade_distance()}}},
+              {"warnings", warnings}});
+}
+
+void write_timing(const OutputFolder& folder, double wall_time, std::vector<double> step_times) {
+  std::sort(step_times.begin(), step_times.end());
+  const double sum = std::accumulate(step_times.begin(), step_times.end(), 0.0);
+  write_json(folder, "timing.json",
+             {{"wall_time_s", wall_time},
+              {"step_ms",
+               {{"mean", ratio(sum, static_cast<int>(step_times.size()))},
+                {"p50", percentile(step_times, 0.5)},
+                {"p99", percentile(step_times, 0.99)},
+                {"max", percentile(step_times, 1.0)}}}});
+}
+
+}  // namespace cfem_cutting
