@@ -14,8 +14,8 @@ class CutSurface {
   /// @param cell m, bucket size (a voxel); also the scale of "near"
   explicit CutSurface(double cell);
 
-  /// Adds triangles and returns the area (m²) that is inside tissue and was not within a quarter of a cell of the
-  /// surface before.
+  /// Adds triangles and returns the area (m²) that is inside tissue and was not within a quarter of a cell of
+  /// the surface before.
   double add(const VoxelVolume& volume, const std::vector<SweptTriangle>& triangles);
 
   /// Distance to the surface if within `radius` ≤ cell, else infinity, m.
@@ -24,6 +24,8 @@ class CutSurface {
   const std::vector<SweptTriangle>& triangles() const { return triangles_; }
 
  private:
+  void insert(const SweptTriangle& triangle);
+
   double cell_;
   std::vector<SweptTriangle> triangles_;
   std::unordered_map<std::int64_t, std::vector<int>> buckets_;

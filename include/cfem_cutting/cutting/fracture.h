@@ -18,8 +18,8 @@ struct FractureOptions {
 /// A link that waits in the current unit.
 struct Candidate {
   Crossing crossing;
-  double offset = 0.0;       ///< m, the larger of its two ends'
-  double passed_by = 0.0;    ///< m, how far the front has gone beyond the crossing
+  double offset = 0.0;     ///< m, the larger of its two ends'
+  double passed_by = 0.0;  ///< m, how far the front has gone beyond the crossing
   double front_distance = std::numeric_limits<double>::infinity();  ///< m, from the crossing to the front
 };
 
@@ -30,19 +30,21 @@ struct Fracture {
   std::vector<Candidate> waiting;
 };
 
-/// Decides by the offset criterion (the paper's delayed fracture): it happens when the largest offset of candidates
-/// and contacts exceeds d0; then candidates with an offset above d1 are severed. A candidate that the front has
-/// passed by more than max(d0, 2h) is severed in any case (and makes it happen). In immediate mode any candidate
-/// makes it happen and all are severed.
+/// Decides by the offset criterion (the paper's delayed fracture): it happens when the largest offset of
+/// candidates and contacts exceeds d0; then candidates with an offset above d1 are severed. A candidate that
+/// the front has passed by more than max(d0, 2h) is severed in any case (and makes it happen). In immediate
+/// mode any candidate makes it happen and all are severed.
 /// @param contact_offset m, the largest offset of contact points
 /// @param block m, the edge of a composite element
-Fracture decide(const FractureOptions& options, const std::vector<Candidate>& candidates, double contact_offset, double block);
+Fracture decide(const FractureOptions& options, const std::vector<Candidate>& candidates,
+                double contact_offset, double block);
 
 /// Displacement since the reference state minus the best-fit rigid motion of the piece.
 class OffsetField {
  public:
   /// @param reference, current node positions, (3 × |nodes|)
-  OffsetField(const VoxelVolume& volume, const Pieces& pieces, const CompositeMesh& mesh, const NodeField& reference, const NodeField& current);
+  OffsetField(const VoxelVolume& volume, const Pieces& pieces, const CompositeMesh& mesh,
+              const NodeField& reference, const NodeField& current);
 
   /// m, of a material point that moves with a voxel's element.
   double offset(int voxel, const Vec3& X) const;

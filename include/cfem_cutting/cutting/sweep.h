@@ -11,15 +11,18 @@ namespace cfem_cutting {
 /// A piece of the swept surface in material space.
 struct SweptTriangle {
   std::array<Vec3, 3> corners;  ///< m
-  Vec3 normal() const { return (corners[1] - corners[0]).cross(corners[2] - corners[0]); }  ///< length: twice the area
+  Vec3 normal() const {
+    return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  }  ///< length: twice the area
 };
 
 /// Front points in material space; nothing where the edge is far from tissue.
 using MaterialFront = std::vector<std::optional<MaterialPoint>>;
 
-/// The surface between two positions of the front, two triangles for each pair of neighbouring points of which
-/// at least one of the four corners lies inside tissue or which pass from one side of it to the other; zero-area
-/// triangles are left out. The fronts must have equal length.
+/// The surface between two positions of the front, two triangles for each pair of neighbouring points: where
+/// one of the four corners lies inside tissue, and one strip more on either side, so that no link near the
+/// skin slips by. Strips with a corner far from tissue and triangles without area are left out. The fronts
+/// must have equal length.
 std::vector<SweptTriangle> sweep(const MaterialFront& before, const MaterialFront& after);
 
 }  // namespace cfem_cutting
