@@ -35,8 +35,9 @@ void count_bad_edges(const TriangleMesh& mesh, MeshDefects& defects) {
         std::find_if(begin, half_edges.end(), [&](const HalfEdge& e) { return !e.same_edge(*begin); });
     const int balance =
         std::accumulate(begin, end, 0, [](int sum, const HalfEdge& e) { return sum + e.direction; });
-    if (balance != 0) ++defects.open_edges;
-    if (end - begin > 2) ++defects.nonmanifold_edges;
+    const Vec3 middle = 0.5 * (mesh.vertices[begin->low] + mesh.vertices[begin->high]);
+    if (balance != 0 && defects.open_edges++ == 0) defects.open_edge_at = middle;
+    if (end - begin > 2 && defects.nonmanifold_edges++ == 0) defects.nonmanifold_at = middle;
     begin = end;
   }
 }
@@ -69,8 +70,11 @@ void count_bad_vertices(const TriangleMesh& mesh, MeshDefects& defects) {
   for (const auto& triangle : mesh.triangles)
     for (int corner = 0; corner < 3; ++corner)
       opposite_edges[triangle[corner]].push_back({triangle[(corner + 1) % 3], triangle[(corner + 2) % 3]});
-  for (const auto& edges : opposite_edges)
-    if (!is_one_fan(edges)) ++defects.nonmanifold_vertices;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (is_one_fan(opposite_edges[v])) continue;
+    if (defects.manifold()) defects.nonmanifold_at = mesh.vertices[v];
+    ++defects.nonmanifold_vertices;
+  }
 }
 
 }  // namespace

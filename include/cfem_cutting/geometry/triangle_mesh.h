@@ -22,6 +22,8 @@ struct MeshDefects {
   int open_edges = 0;           ///< edges whose two directions are not used equally often
   int nonmanifold_edges = 0;    ///< edges of more than two triangles
   int nonmanifold_vertices = 0; ///< vertices whose triangles are not one fan
+  Vec3 open_edge_at = Vec3::Zero();    ///< middle of an open edge, m
+  Vec3 nonmanifold_at = Vec3::Zero();  ///< middle of a non-manifold edge, else a non-manifold vertex, m
   bool closed() const { return open_edges == 0; }
   bool manifold() const { return nonmanifold_edges == 0 && nonmanifold_vertices == 0; }
 };
