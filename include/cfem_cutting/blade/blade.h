@@ -25,7 +25,7 @@ Polyline edge_from_urdf(const std::string& urdf_xml, const std::string& tool_lin
 /// The front: the edge placed in the tissue frame.
 struct Front {
   Polyline points;  ///< m, in T
-  Vec3 back;        ///< unit, in T
+  Vec3 back = Vec3::UnitZ();  ///< unit, in T
 };
 /// @param max_segment m, longest segment of the front
 Front place(const Blade& blade, const Pose& X_TB, double max_segment);
