@@ -1,6 +1,7 @@
 #pragma once
 
-#include <optional>
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "cfem_cutting/elasticity/composite_mesh.h"
@@ -11,10 +12,11 @@ namespace cfem_cutting {
 
 /// A vertex of the tissue's surface. It follows the element of its voxel.
 struct SurfaceVertex {
-  Vec3 X;                 ///< m, material position
-  int voxel;              ///< a linked voxel of the component in its dual cell
-  Vec3i cell;             ///< dual cell: the cube between the centres of voxels cell … cell + (1, 1, 1)
-  bool on_front = false;  ///< a virtual intersection point holds it: drawn exactly on the blade's edge while bound
+  Vec3 X;      ///< m, material position
+  int voxel;   ///< a linked voxel of the component in its dual cell
+  Vec3i cell;  ///< dual cell: the cube between the centres of voxels cell … cell + (1, 1, 1)
+  bool on_front =
+      false;  ///< a virtual intersection point holds it: drawn exactly on the blade's edge while bound
 };
 
 /// Surface of a voxel volume in material space.
@@ -26,32 +28,37 @@ struct TissueSurface {
 };
 
 /// Virtual intersection points: positions that the influence domain adaptation puts in place of the error
-/// function's minimum, by the curve of material points (the trace of the front on the skin, or the cut's end) that
-/// runs through the dual cells. Pieces of the curve where the edge is out of tissue are separate polylines.
+/// function's minimum, by the curve of material points (the trace of the front on the skin, or the cut's end)
+/// that runs through the dual cells. Pieces of the curve where the edge is out of tissue are separate
+/// polylines.
 using FrontTrace = std::vector<Polyline>;
 
 /// Manifold dual contouring (after Ju et al. 2002; Schaefer, Ju and Warren 2007).
 class SurfaceExtractor {
  public:
+  /// @param volume must outlive the extractor
   explicit SurfaceExtractor(const VoxelVolume& volume);
+  ~SurfaceExtractor();
 
-  /// Contours again around links severed since the last call, and puts the vertices of the cells that the trace
-  /// runs through on it (projected along the shortest way). An empty trace: no adaptation. Cut ends that were put on
-  /// an earlier trace by `freeze` stay there.
+  /// Contours again around links severed since the last call, and puts the vertices of the cells that the
+  /// trace runs through on it (projected along the shortest way). An empty trace: no adaptation. Cut ends
+  /// that were put on an earlier trace by `freeze` stay there.
   const TissueSurface& extract(const FrontTrace& trace);
 
-  /// Keeps the present virtual intersection points of cells with severed links when the front moves on: a cut ends
-  /// where the blade was, until the cut goes on through the same cell.
+  /// Keeps the present virtual intersection points of cells with severed links when the front moves on, and
+  /// those that the next `extract` makes: a cut ends where the blade was, until the cut goes on through the
+  /// same sheets.
   void freeze();
 
-  const TissueSurface& surface() const { return surface_; }
+  const TissueSurface& surface() const;
 
  private:
-  const VoxelVolume& volume_;
-  TissueSurface surface_;
+  struct State;
+  std::unique_ptr<State> s_;
 };
 
-/// A surface placed by node positions, with smooth normals on the skin and separate ones on both sides of the rim.
+/// A surface placed by node positions, with smooth normals on the skin and separate ones on both sides of the
+/// rim.
 struct DeformedSurface {
   std::vector<Vec3> positions;  ///< m, (|V|)
   std::vector<int> source;      ///< index of the TissueSurface vertex that each stems from, (|V|)
@@ -61,17 +68,18 @@ struct DeformedSurface {
   TriangleMesh mesh() const { return {positions, triangles}; }
 };
 
-/// Vertices shared by skin and cut triangles are doubled so that the rim is sharp (triangle indices refer to the
-/// doubled vertices; `source` of each: first the surface's vertices, then the doubles).
+/// Vertices shared by skin and cut triangles are doubled so that the rim is sharp (triangle indices refer to
+/// the doubled vertices; `source` of each: first the surface's vertices, then the doubles).
 /// @param front where bound vertices (on_front) are drawn; empty: leave them
-DeformedSurface deform(const TissueSurface& surface, const CompositeMesh& mesh, const NodeField& x, const Polyline& front);
+DeformedSurface deform(const TissueSurface& surface, const CompositeMesh& mesh, const NodeField& x,
+                       const Polyline& front);
 
 /// Figures about a surface.
 struct SurfaceQuality {
   MeshDefects defects;
-  double volume = 0.0;        ///< m³
-  int degenerate = 0;         ///< triangles of no area
-  int needles = 0;            ///< triangles with an angle under 5°
+  double volume = 0.0;  ///< m³
+  int degenerate = 0;   ///< triangles of no area
+  int needles = 0;      ///< triangles with an angle under 5°
 };
 SurfaceQuality assess(const TriangleMesh& mesh);
 

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cfem_cutting/volume/voxel_volume.h"
+
+namespace cfem_cutting {
+
+/// A link seen from one of its ends in a dual cell: 3·corner + axis. Corner a + 2(b + 2c) of a cell is the
+/// voxel cell + (a, b, c). Only severed and surface links with tissue at the corner have sides.
+using LocalSide = int;
+constexpr int kLocalSides = 24;
+using SideMask = std::uint32_t;  ///< bit n: local side n
+
+/// The direction (see `step`) in which a link leaves a corner along an axis.
+constexpr int direction_from(int corner, int axis) { return 2 * axis + 1 - (corner >> axis & 1); }
+
+/// The same link's side at its other end.
+constexpr LocalSide across(LocalSide side) { return 3 * (side / 3 ^ (1 << side % 3)) + side % 3; }
+
+/// Part of a cell's edge at which vertices keep off its faces.
+constexpr double kCellMargin = 0.005;
+
+/// A piece of surface in a dual cell: a closed cycle of link sides. It gets one vertex.
+struct Sheet {
+  SideMask sides = 0;
+  int voxel = -1;  ///< the lowest linked one at its sides
+  int group = -1;  ///< in DualCell::groups
+};
+
+/// Sheets that face each other across severed links and hence share one position.
+struct SheetGroup {
+  SideMask sides = 0;
+  bool skin = false;            ///< holds a surface link
+  bool severed = false;         ///< holds a severed link
+  bool cut_end = false;         ///< both sides of a severed link are in one sheet: the cut ends here
+  Vec3 minimum = Vec3::Zero();  ///< m, of the error function
+  std::optional<Vec3> frozen;   ///< m, a cut end's virtual intersection point that was kept
+  std::optional<Vec3> adapted;  ///< m, the virtual intersection point on the present trace
+  const Vec3& X() const { return adapted ? *adapted : frozen ? *frozen : minimum; }
+};
+
+/// The cube between eight voxel centres and the surface's sheets in it.
+struct DualCell {
+  Vec3i index;
+  std::array<int, 8> voxel{};  ///< linked voxels at the corners, −1 for none
+  SideMask sides = 0;
+  std::array<std::int8_t, kLocalSides> sheet_of_side{};
+  std::vector<Sheet> sheets;
+  std::vector<SheetGroup> groups;
+
+  bool has_side(LocalSide side) const { return sides >> side & 1; }
+  bool intact(int corner, int axis) const { return voxel[corner] >= 0 && !has_side(3 * corner + axis); }
+
+  /// The side at the other end of the arc that starts at `side` in the cell's face square to `normal_axis`:
+  /// along the face's boundary over intact links as far as they go.
+  LocalSide arc_end(LocalSide side, int normal_axis) const;
+};
+
+/// Sheets, groups and the minima of their error functions.
+DualCell contour_cell(const VoxelVolume& volume, const Vec3i& index);
+
+}  // namespace cfem_cutting

@@ -1,0 +1,89 @@
+#include "front_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cfem_cutting/geometry/polyline.h"
+
+namespace cfem_cutting {
+namespace {
+
+/// Cells: rounding that still counts as on a boundary.
+constexpr double kOnBoundary = 1e-9;
+
+/// Part of a piece's length at which projections keep off its ends.
+constexpr double kEndMargin = 0.05;
+
+/// In units of cells, the boundaries at whole numbers.
+Vec3 to_cells(const Lattice& lattice, const Vec3& X) {
+  return (X - lattice.origin).cwiseQuotient(lattice.spacing).array() - 0.5 + kOnBoundary;
+}
+
+/// Positions in the segment, ascending from 0 to 1, where it passes from cell to cell.
+std::vector<double> boundaries(const Vec3& from, const Vec3& to) {
+  std::vector<double> at{0.0, 1.0};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax(from[axis], to[axis]);
+    for (double plane = std::ceil(low); plane <= high; plane += 1.0)
+      if (low < high) at.push_back(std::clamp((plane - from[axis]) / (to[axis] - from[axis]), 0.0, 1.0));
+  }
+  std::sort(at.begin(), at.end());
+  at.erase(std::unique(at.begin(), at.end()), at.end());
+  return at;
+}
+
+void append(std::vector<FrontPiece>& pieces, const Vec3i& cell, const Vec3& from, const Vec3& to) {
+  if (pieces.empty() || pieces.back().cell != cell) {
+    pieces.emplace_back();
+    pieces.back().cell = cell;
+    pieces.back().points.push_back(from);
+  }
+  pieces.back().points.push_back(to);
+  pieces.back().length += (to - from).norm();
+}
+
+void walk_segment(const Lattice& lattice, const Vec3& a, const Vec3& b, std::vector<FrontPiece>& pieces) {
+  const Vec3 from = to_cells(lattice, a);
+  const Vec3 to = to_cells(lattice, b);
+  const std::vector<double> at = boundaries(from, to);
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    const Vec3 p = a + at[i] * (b - a);
+    const Vec3 q = i + 2 == at.size() ? b : Vec3(a + at[i + 1] * (b - a));
+    if (p == q) continue;
+    const Vec3 middle = from + 0.5 * (at[i] + at[i + 1]) * (to - from);
+    append(pieces, middle.array().floor().cast<int>(), p, q);
+  }
+}
+
+/// The point at a distance along a polyline.
+Vec3 point_along(const Polyline& points, double along) {
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double length = (points[i + 1] - points[i]).norm();
+    if (along <= length) return points[i] + along / length * (points[i + 1] - points[i]);
+    along -= length;
+  }
+  return points.back();
+}
+
+}  // namespace
+
+std::vector<FrontPiece> walk_dual_cells(const Lattice& lattice, const Polyline& polyline) {
+  std::vector<FrontPiece> pieces;
+  for (std::size_t i = 0; i + 1 < polyline.size(); ++i)
+    walk_segment(lattice, polyline[i], polyline[i + 1], pieces);
+  if (!pieces.empty()) pieces.front().first = pieces.back().last = true;
+  return pieces;
+}
+
+Vec3 project_within(const FrontPiece& piece, const Vec3& query) {
+  const PolylineProjection nearest = project(piece.points, query);
+  double along = (nearest.point - piece.points[nearest.segment]).norm();
+  for (int i = 0; i < nearest.segment; ++i) along += (piece.points[i + 1] - piece.points[i]).norm();
+  const double margin = kEndMargin * piece.length;
+  const double low = piece.first ? 0.0 : margin;
+  const double high = piece.last ? piece.length : piece.length - margin;
+  return along < low || along > high ? point_along(piece.points, std::clamp(along, low, high))
+                                     : nearest.point;
+}
+
+}  // namespace cfem_cutting

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "cfem_cutting/geometry/types.h"
+#include "cfem_cutting/volume/lattice.h"
+
+namespace cfem_cutting {
+
+/// The part of a polyline in one dual cell.
+struct FrontPiece {
+  Vec3i cell;
+  Polyline points;      ///< m, two or more
+  double length = 0.0;  ///< m
+  bool first = false;   ///< the polyline begins here
+  bool last = false;    ///< the polyline ends here
+};
+
+/// The dual cells that a polyline runs through, in order; consecutive ones differ. A polyline on a boundary
+/// between cells is in the one of larger index.
+std::vector<FrontPiece> walk_dual_cells(const Lattice& lattice, const Polyline& polyline);
+
+/// The point of a piece nearest to a query. It keeps a part of the piece's length off ends at which the
+/// polyline goes on, so that vertices of neighbouring cells don't meet.
+Vec3 project_within(const FrontPiece& piece, const Vec3& query);
+
+}  // namespace cfem_cutting
