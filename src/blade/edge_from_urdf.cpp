@@ -23,6 +23,7 @@ urdf::LinkConstSharedPtr find_link(const urdf::ModelInterface& model, const std:
 /// Pose of a link in the frame of the nearest link towards the root that a joint which isn't fixed carries.
 struct Anchored {
   std::string root;
+  std::string joint;  // that carries it, empty at the URDF's root
   Pose X_RL = Pose::Identity();
 };
 Anchored anchor(urdf::LinkConstSharedPtr link) {
@@ -32,6 +33,7 @@ Anchored anchor(urdf::LinkConstSharedPtr link) {
     link = link->getParent();
   }
   anchored.root = link->name;
+  if (link->parent_joint) anchored.joint = link->parent_joint->name;
   return anchored;
 }
 
@@ -47,7 +49,7 @@ Polyline edge_from_urdf(const std::string& urdf_xml, const std::string& tool_lin
     const Anchored link = anchor(find_link(*model, "blade.edge_links", name));
     if (link.root != tool.root)
       throw ConfigError("blade.edge_links: " + name + ": must be joined to " + tool_link +
-                        " by fixed joints");
+                        " by fixed joints, not by '" + (link.joint.empty() ? tool.joint : link.joint) + "'");
     edge.push_back((tool.X_RL.inverse() * link.X_RL).translation());
   }
   return edge;

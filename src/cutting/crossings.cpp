@@ -103,7 +103,8 @@ class CrossingFinder {
     const int direction = 2 * axis + 1;
     const Voxel& v = volume_.voxel(voxel);
     if (v.neighbour[direction] < 0 || v.link[direction] != LinkState::kIntact) return;
-    const Vec3 normal = triangle.normal().normalized();
+    const double twice_area = triangle.normal().norm();
+    const Vec3 normal = twice_area > 0.0 ? Vec3(triangle.normal() / twice_area) : Vec3::Unit(axis);
     SurfacePoint at{volume_.centre(voxel), normal};
     const double slope = normal[axis];
     const double h = volume_.lattice().spacing[axis];

@@ -36,12 +36,6 @@ Pose best_fit(const Moments& m) {
   return motion;
 }
 
-Vec3 centre(const CompositeElement& element, const NodeField& x) {
-  Vec3 sum = Vec3::Zero();
-  for (const int node : element.nodes) sum += x.col(node);
-  return sum / 8.0;
-}
-
 }  // namespace
 
 OffsetField::OffsetField(const VoxelVolume& volume, const Pieces& pieces, const CompositeMesh& mesh,
@@ -52,7 +46,9 @@ OffsetField::OffsetField(const VoxelVolume& volume, const Pieces& pieces, const 
     const int piece = pieces.piece_of_voxel[element.voxels.front()];
     double weight = 0.0;
     for (const int voxel : element.voxels) weight += volume.filled_volume(voxel);
-    moments[piece].add(weight, centre(element, reference), centre(element, current));
+    // By its nodes, not its centre: they tell the rotation even of a piece that is a single element.
+    for (const int node : element.nodes)
+      moments[piece].add(weight / 8.0, reference.col(node), current.col(node));
   }
   for (const Moments& m : moments) rigid_motion_.push_back(best_fit(m));
 }

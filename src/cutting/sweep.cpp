@@ -1,6 +1,7 @@
 #include "cfem_cutting/cutting/sweep.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace cfem_cutting {
 namespace {
@@ -25,8 +26,10 @@ class Strip {
 
  private:
   void append(std::vector<SweptTriangle>& swept, int a, int b, int c) const {
+    // Not by the computed area, which may vanish where the exact one doesn't and a link slips by.
     const SweptTriangle triangle{{(*corners_[a])->X, (*corners_[b])->X, (*corners_[c])->X}};
-    if (triangle.normal().squaredNorm() > 0.0) swept.push_back(triangle);
+    const auto& [p, q, r] = triangle.corners;
+    if (p != q && q != r && r != p) swept.push_back(triangle);
   }
 
   std::array<const std::optional<MaterialPoint>*, 4> corners_;
@@ -35,6 +38,7 @@ class Strip {
 }  // namespace
 
 std::vector<SweptTriangle> sweep(const MaterialFront& before, const MaterialFront& after) {
+  assert(before.size() == after.size());
   std::vector<Strip> strips;
   for (std::size_t i = 0; i + 1 < after.size(); ++i) strips.emplace_back(before, after, i);
   std::vector<SweptTriangle> swept;

@@ -32,12 +32,16 @@ struct Fracture {
 
 /// Decides by the offset criterion (the paper's delayed fracture): it happens when the largest offset of
 /// candidates and contacts exceeds d0; then candidates with an offset above d1 are severed. A candidate that
-/// the front has passed by more than max(d0, 2h) is severed in any case (and makes it happen). In immediate
-/// mode any candidate makes it happen and all are severed.
+/// the front has passed by more than max(d0, 2h) is severed in any case (and makes it happen; below d0 it
+/// takes no others along). In immediate mode any candidate makes it happen and all are severed. h is `block`.
 /// @param contact_offset m, the largest offset of contact points
 /// @param block m, the edge of a composite element
 Fracture decide(const FractureOptions& options, const std::vector<Candidate>& candidates,
                 double contact_offset, double block);
+
+/// Drops candidates whose crossing is farther than max_distance (m; two blocks) from the front: an old stroke
+/// is not cut by a later, distant deformation.
+void drop_far(std::vector<Candidate>& candidates, double max_distance);
 
 /// Displacement since the reference state minus the best-fit rigid motion of the piece.
 class OffsetField {
