@@ -6,11 +6,11 @@ namespace cfem_cutting {
 
 /// The point of a polyline nearest to a query.
 struct PolylineProjection {
-  Vec3 point;            ///< m
-  Vec3 tangent;          ///< unit, along the polyline
-  int segment = 0;       ///< index of the segment's first point
-  double t = 0.0;        ///< position in the segment; < 0 or > 1 only beyond the polyline's ends
-  double distance = 0.0; ///< m, from the query to `point`; `point` itself stays on the polyline
+  Vec3 point;             ///< m
+  Vec3 tangent;           ///< unit, along the polyline
+  int segment = 0;        ///< index of the segment's first point
+  double t = 0.0;         ///< position in the segment; < 0 or > 1 only beyond the polyline's ends
+  double distance = 0.0;  ///< m, from the query to `point`; `point` itself stays on the polyline
 };
 
 /// @pre polyline has at least two points, no two consecutive ones equal

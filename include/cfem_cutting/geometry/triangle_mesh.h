@@ -10,7 +10,7 @@ namespace cfem_cutting {
 
 /// Indexed triangles, counter-clockwise seen from outside.
 struct TriangleMesh {
-  std::vector<Vec3> vertices;                  ///< m
+  std::vector<Vec3> vertices;  ///< m
   std::vector<std::array<int, 3>> triangles;
 };
 
@@ -19,9 +19,9 @@ double enclosed_volume(const TriangleMesh& mesh);
 
 /// How a mesh fails to be a closed surface; all zero if it doesn't.
 struct MeshDefects {
-  int open_edges = 0;           ///< edges whose two directions are not used equally often
-  int nonmanifold_edges = 0;    ///< edges of more than two triangles
-  int nonmanifold_vertices = 0; ///< vertices whose triangles are not one fan
+  int open_edges = 0;                  ///< edges whose two directions are not used equally often
+  int nonmanifold_edges = 0;           ///< edges of more than two triangles
+  int nonmanifold_vertices = 0;        ///< vertices whose triangles are not one fan
   Vec3 open_edge_at = Vec3::Zero();    ///< middle of an open edge, m
   Vec3 nonmanifold_at = Vec3::Zero();  ///< middle of a non-manifold edge, else a non-manifold vertex, m
   bool closed() const { return open_edges == 0; }

@@ -13,10 +13,14 @@ struct Lattice {
 
   std::int64_t count() const { return std::int64_t{size.x()} * size.y() * size.z(); }
   bool contains(const Vec3i& v) const { return (v.array() >= 0).all() && (v.array() < size.array()).all(); }
-  std::int64_t index(const Vec3i& v) const { return v.x() + size.x() * (v.y() + std::int64_t{size.y()} * v.z()); }
+  std::int64_t index(const Vec3i& v) const {
+    return v.x() + size.x() * (v.y() + std::int64_t{size.y()} * v.z());
+  }
   Vec3 centre(const Vec3i& v) const { return corner(v) + 0.5 * spacing; }
   Vec3 corner(const Vec3i& v) const { return origin + v.cast<double>().cwiseProduct(spacing); }
-  Vec3i voxel_at(const Vec3& X) const { return (X - origin).cwiseQuotient(spacing).array().floor().cast<int>(); }
+  Vec3i voxel_at(const Vec3& X) const {
+    return (X - origin).cwiseQuotient(spacing).array().floor().cast<int>();
+  }
 };
 
 }  // namespace cfem_cutting

@@ -25,11 +25,11 @@ struct Fill {
 
 /// One voxel that holds tissue.
 struct Voxel {
-  Vec3i index;                                ///< in the lattice
-  int label = 0;                              ///< of its tissue (most frequent among the filled samples)
+  Vec3i index;    ///< in the lattice
+  int label = 0;  ///< of its tissue (most frequent among the filled samples)
   Fill fill;
-  int host = -1;                              ///< ≥ 0: an unlinked voxel (its centre lies outside), which belongs to
-                                              ///< the component of this linked voxel; −1: linked
+  int host = -1;  ///< ≥ 0: an unlinked voxel (its centre lies outside), which belongs to
+                  ///< the component of this linked voxel; −1: linked
   std::array<int, kDirections> neighbour{};   ///< linked voxel across each face, −1 if none
   std::array<LinkState, kDirections> link{};  ///< meaningful for linked voxels
   bool linked() const { return host < 0; }
@@ -97,8 +97,8 @@ class VoxelVolume {
 
   Lattice lattice_;
   std::vector<Voxel> voxels_;
-  std::vector<int> voxel_of_cell_;                                  // lattice index → voxel, −1
-  std::vector<std::array<int, kDirections>> crossing_of_link_;      // per voxel → crossings_, −1
+  std::vector<int> voxel_of_cell_;                              // lattice index → voxel, −1
+  std::vector<std::array<int, kDirections>> crossing_of_link_;  // per voxel → crossings_, −1
   std::vector<SurfacePoint> crossings_;
   std::int64_t link_count_ = 0;
   std::int64_t severed_count_ = 0;
