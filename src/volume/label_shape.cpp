@@ -75,8 +75,7 @@ class LabelShape final : public Shape {
   }
 
   SurfacePoint exit(const Vec3& inside, const Vec3& outside) const override {
-    const std::optional<Vec3> smooth = smooth_exit(inside, outside);
-    const Vec3 point = smooth ? *smooth : find_label_change(*this, inside, outside);
+    const Vec3 point = exit_point(inside, outside);
     const Vec3 gradient_S = field_.gradient(X_ST_ * point, kGradientReach * mean_spacing(image_));
     if (!(gradient_S.norm() > 0.0)) return {point, (outside - inside).normalized()};
     return {point, X_TS_.linear() * -gradient_S.normalized()};
@@ -93,9 +92,25 @@ class LabelShape final : public Shape {
 
   bool smooth_inside(const Vec3& p) const { return field_.value(X_ST_ * p) > kLevel; }
 
-  /// Where the smooth surface is met last; none if it passes by an end on the other side.
+  /// On the smooth surface; at an end that it passes closely on the wrong side; else where the labels end, as
+  /// in parts too thin for the smooth field.
+  Vec3 exit_point(const Vec3& inside, const Vec3& outside) const {
+    if (smooth_inside(outside)) return outside;
+    if (const std::optional<Vec3> smooth = smooth_exit(inside, outside)) return *smooth;
+    return smooth_surface_grazes(inside) ? inside : find_label_change(*this, inside, outside);
+  }
+
+  /// Whether the field at p is that of a single, nearly flat border close by, not of a thin part.
+  bool smooth_surface_grazes(const Vec3& p) const {
+    constexpr double kClose = 0.15, kSingle = 0.7;
+    const double spacing = mean_spacing(image_);
+    const double steepness_of_plane = 1.0 / (kSmoothing * spacing * std::sqrt(2.0 * M_PI));
+    return field_.value(X_ST_ * p) > kLevel - kClose &&
+           field_.gradient(X_ST_ * p, spacing).norm() > kSingle * steepness_of_plane;
+  }
+
+  /// Where the smooth surface is met last, if it is.
   std::optional<Vec3> smooth_exit(const Vec3& inside, const Vec3& outside) const {
-    if (smooth_inside(outside)) return std::nullopt;
     const int steps =
         static_cast<int>(std::ceil(2.0 * (outside - inside).norm() / image_.spacing.minCoeff()));
     const auto point_at = [&](double t) { return Vec3(outside + t * (inside - outside)); };

@@ -83,7 +83,7 @@ TEST(LabelShape, VoxelsCarryTheMostFrequentLabel) {
   }
 }
 
-/// Links that graze the smooth surface fall back on the image's steps: a few in a hundred may be rough.
+/// Links whose ends the smooth surface passes on the wrong side are clamped: a few in a hundred may be rough.
 TEST(LabelShape, SkinIsSmootherThanTheImage) {
   for (const Pose& X_TS : {Pose::Identity(), tilted()}) {
     const auto shape = make_label_shape(ball(), {7, 9}, X_TS, "image");
@@ -96,13 +96,13 @@ TEST(LabelShape, SkinIsSmootherThanTheImage) {
         const Vec3 from_middle = crossing.point - X_TS * kMiddle;
         const double error = std::abs(from_middle.norm() - kRadius);
         ++crossings;
-        rough += error > 0.0002 || crossing.normal.dot(from_middle.normalized()) < 0.995;
-        EXPECT_LT(error, 0.001);
+        rough += error > 0.00025 || crossing.normal.dot(from_middle.normalized()) < 0.99;
+        EXPECT_LT(error, 0.0007);
         EXPECT_GT(crossing.normal.dot(from_middle.normalized()), 0.9);
       }
     }
     EXPECT_GT(crossings, 900);
-    EXPECT_LT(rough, 0.03 * crossings);
+    EXPECT_LT(rough, 0.08 * crossings);
   }
 }
 
