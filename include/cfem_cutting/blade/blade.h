@@ -15,16 +15,18 @@ struct Blade {
 };
 
 /// Checks and normalises.
-/// @throw ConfigError fewer than two points, equal neighbours, or a zero `back`; names blade.edge or blade.back.
+/// @throw ConfigError fewer than two points, equal neighbours, or a zero `back`; names blade.edge or
+/// blade.back.
 Blade make_blade(const Polyline& edge, const Vec3& back, double friction);
 
 /// Origins of links (heel to tip) in the frame of tool_link, along fixed joints of a URDF document.
 /// @throw ConfigError not a URDF, a link is missing, or a joint on the way isn't fixed.
-Polyline edge_from_urdf(const std::string& urdf_xml, const std::string& tool_link, const std::vector<std::string>& edge_links);
+Polyline edge_from_urdf(const std::string& urdf_xml, const std::string& tool_link,
+                        const std::vector<std::string>& edge_links);
 
 /// The front: the edge placed in the tissue frame.
 struct Front {
-  Polyline points;  ///< m, in T
+  Polyline points;            ///< m, in T
   Vec3 back = Vec3::UnitZ();  ///< unit, in T
 };
 /// @param max_segment m, longest segment of the front
