@@ -89,7 +89,7 @@ void Simulation::State::sever(const Fracture& fracture, StepReport& report) {
   {
     const OffsetField offsets(volume, pieces, model.mesh(), reference, elastic.x);
     contact.release_if([&](const EdgeContactPoint& p) {
-      return p.active && offsets.offset(p.voxel, p.X) > config.fracture.release_offset;
+      return offsets.offset(p.voxel, p.X) > config.fracture.release_offset;
     });
   }
   if (!fracture.severed.empty()) rebuild(fracture);
