@@ -1,0 +1,111 @@
+#include <algorithm>
+
+#include "cfem_cutting/geometry/polyline.h"
+#include "surface/tissue.h"
+
+namespace cfem_cutting {
+namespace {
+
+using test::box_volume;
+using test::expect_closed_and_manifold;
+using test::Plane;
+using test::sever;
+
+Polyline line(const Vec3& from, const Vec3& to) { return refine({from, to}, 0.5); }
+
+std::vector<Vec3> on_front(const TissueSurface& surface) {
+  std::vector<Vec3> points;
+  for (const SurfaceVertex& vertex : surface.vertices)
+    if (vertex.on_front) points.push_back(vertex.X);
+  return points;
+}
+
+/// Consecutive vertices on a straight trace must be joined by edges.
+void expect_chain(const TissueSurface& surface, const Vec3& along) {
+  std::vector<int> chain;
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+    if (surface.vertices[v].on_front) chain.push_back(static_cast<int>(v));
+  const auto at = [&](int v) { return surface.vertices[v].X.dot(along); };
+  std::sort(chain.begin(), chain.end(), [&](int a, int b) { return at(a) < at(b); });
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+    const auto joins = [&](const std::array<int, 3>& t) {
+      return std::count(t.begin(), t.end(), chain[i]) + std::count(t.begin(), t.end(), chain[i + 1]) == 2;
+    };
+    EXPECT_TRUE(std::any_of(surface.triangles.begin(), surface.triangles.end(), joins)) << "link " << i;
+  }
+}
+
+class SkinTrace : public testing::TestWithParam<double> {};
+
+TEST_P(SkinTrace, carries_a_chain_of_vertices_without_folds) {
+  const VoxelVolume volume = box_volume({8, 8, 4});
+  const double shift = GetParam();
+  const Vec3 from(1.6, 2.0 + shift, 4.0), to(6.4, 5.0 + shift, 4.0);
+  SurfaceExtractor extractor(volume);
+  const TissueSurface& surface = extractor.extract({line(from, to)});
+  const std::vector<Vec3> points = on_front(surface);
+  EXPECT_GE(points.size(), 5u);
+  for (const Vec3& X : points) EXPECT_LT(project({from, to}, X).distance, 1e-9);
+  expect_chain(surface, to - from);
+  const TriangleMesh mesh = surface.rest();
+  EXPECT_EQ(assess(mesh).degenerate, 0);
+  EXPECT_NEAR(enclosed_volume(mesh), 256.0, 1e-9);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 &A = mesh.vertices[a], &B = mesh.vertices[b], &C = mesh.vertices[c];
+    if (std::min({A.z(), B.z(), C.z()}) > 3.9) {
+      EXPECT_GT((B - A).cross(C - A).z(), 0.0);
+    }
+  }
+  extractor.extract({});
+  EXPECT_TRUE(on_front(surface).empty());
+  EXPECT_EQ(surface.rest().vertices, SurfaceExtractor(volume).extract({}).rest().vertices);
+}
+
+INSTANTIATE_TEST_SUITE_P(shifts, SkinTrace, testing::Values(0.0, 0.13, 0.3, 0.41, 0.5, 0.77));
+
+TEST(CutEnd, lies_on_the_front_and_stays_when_frozen) {
+  VoxelVolume volume = box_volume({8, 6, 6});
+  const double depth = 2.8;  // between rows of centres at 2.5 and 3.5
+  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()}, [&](const Vec3& X) { return X.z() > depth; });
+  const Vec3 from(4.2, 0.0, depth), to(4.2, 6.0, depth);
+  SurfaceExtractor extractor(volume);
+  const TissueSurface& surface = extractor.extract({line(from, to)});
+  EXPECT_EQ(on_front(surface).size(), 7u);
+  for (const Vec3& X : on_front(surface)) EXPECT_LT(project({from, to}, X).distance, 1e-9);
+  expect_closed_and_manifold(surface.rest(), "cut end");
+  EXPECT_NEAR(enclosed_volume(surface.rest()), 288.0, 1e-9);
+  const std::vector<Vec3> held = surface.rest().vertices;
+  extractor.freeze();
+  extractor.extract({});
+  EXPECT_TRUE(on_front(surface).empty());
+  EXPECT_EQ(surface.rest().vertices, held);
+}
+
+TEST(Deform, doubles_the_rim_and_draws_bound_vertices_on_the_front) {
+  VoxelVolume volume = box_volume({8, 6, 6});
+  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()}, [](const Vec3& X) { return X.z() > 2.8; });
+  SurfaceExtractor extractor(volume);
+  const TissueSurface& surface = extractor.extract({line({4.2, 0, 2.8}, {4.2, 6, 2.8})});
+  const CompositeMesh mesh(volume, 1);
+  const Vec3 shift(0.0, 0.0, -0.3);
+  const Polyline front{{4.1, -1.0, 2.5}, {4.1, 7.0, 2.5}};
+  const DeformedSurface drawn = deform(surface, mesh, mesh.rest().colwise() + shift, front);
+  EXPECT_GT(drawn.positions.size(), surface.vertices.size());
+  for (std::size_t v = 0; v < drawn.positions.size(); ++v) {
+    const SurfaceVertex& source = surface.vertices[drawn.source[v]];
+    EXPECT_NEAR(drawn.normals[v].norm(), 1.0, 1e-12);
+    if (source.on_front)
+      EXPECT_LT(project(front, drawn.positions[v]).distance, 1e-9);
+    else
+      EXPECT_LT((drawn.positions[v] - source.X - shift).norm(), 1e-9);
+  }
+  std::vector<int> kind(drawn.positions.size(), -1);
+  for (std::size_t t = 0; t < drawn.triangles.size(); ++t)
+    for (const int v : drawn.triangles[t]) {
+      EXPECT_TRUE(kind[v] < 0 || kind[v] == drawn.cut[t]) << "vertex " << v << " is of skin and cut";
+      kind[v] = drawn.cut[t];
+    }
+}
+
+}  // namespace
+}  // namespace cfem_cutting
