@@ -31,6 +31,17 @@ void for_each_joint(const VoxelVolume& volume, const Function& f) {
   }
 }
 
+/// The block of each voxel; a hosted voxel counts as part of its host's block (aggregation; Badia, Verdugo
+/// and Martín 2018). An element of its own would be a sliver, and hang on a hinge where it touches the host's
+/// block at an edge.
+std::vector<Vec3i> assign_blocks(const VoxelVolume& volume, const CompositeMesh& mesh) {
+  std::vector<Vec3i> block;
+  block.reserve(volume.voxels().size());
+  for (const Voxel& voxel : volume.voxels())
+    block.push_back(mesh.block_of(voxel.linked() ? voxel.index : volume.voxel(voxel.host).index));
+  return block;
+}
+
 /// Root voxel of the component inside its block, per voxel.
 std::vector<int> components_in_blocks(const VoxelVolume& volume, const std::vector<Vec3i>& block) {
   UnionFind sets(static_cast<int>(block.size()));
@@ -90,8 +101,7 @@ CompositeMesh::CompositeMesh(const VoxelVolume& volume, int level)
       first_voxel_(smallest_index(volume)),
       block_size_(volume.lattice().spacing * (1 << level)),
       element_of_voxel_(volume.voxels().size(), -1) {
-  std::vector<Vec3i> block(volume.voxels().size());
-  for (std::size_t v = 0; v < block.size(); ++v) block[v] = block_of(volume.voxels()[v].index);
+  const std::vector<Vec3i> block = assign_blocks(volume, *this);
   const std::vector<int> root = components_in_blocks(volume, block);
   for (int v : sort_by_element(block, root)) {
     const bool starts_element = elements_.empty() || root[elements_.back().voxels.front()] != root[v];

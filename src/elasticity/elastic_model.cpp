@@ -48,7 +48,7 @@ struct ElasticModel::Matrices {
     for (int m = 0; m < material_count; ++m) {
       std::vector<BlockWeights> weights(material_count, BlockWeights::Zero());
       weights[m] = voxel_weights(Vec3i::Zero(), 0, full, block_volume);
-      full_block.push_back(std::make_shared<const ElementData>(assembler.assemble(weights)));
+      full_block.push_back(std::make_shared<const ElementData>(assembler.assemble(weights, weights)));
     }
   }
 
@@ -67,10 +67,15 @@ struct ElasticModel::Matrices {
     if (full_material >= 0) return full_block[full_material];
     const Vec3i first = mesh.first_voxel() + element.block * (1 << level);
     std::vector<BlockWeights> weights(material_count, BlockWeights::Zero());
-    for (int v : element.voxels)
-      weights[material_of_voxel[v]] +=
-          voxel_weights(volume.voxel(v).index - first, level, volume.voxel(v).fill, block_volume);
-    return std::make_shared<const ElementData>(assembler.assemble(weights));
+    std::vector<BlockWeights> mass_weights = weights;
+    for (int v : element.voxels) {
+      const Vec3i sub = volume.voxel(v).index - first;
+      const Vec3i nearest = sub.cwiseMax(0).cwiseMin((1 << level) - 1);
+      const Fill& fill = volume.voxel(v).fill;
+      weights[material_of_voxel[v]] += voxel_weights(sub, level, fill, block_volume);
+      mass_weights[material_of_voxel[v]] += voxel_weights(nearest, level, fill, block_volume);
+    }
+    return std::make_shared<const ElementData>(assembler.assemble(weights, mass_weights));
   }
 
   /// Builds the elements of a mesh, taking over those that have the same voxels as before.

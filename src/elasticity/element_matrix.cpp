@@ -89,7 +89,7 @@ struct ElementAssembler::Sums {
 
 ElementAssembler::ElementAssembler(const Vec3& block_size, const std::vector<Material>& materials,
                                    ElementKind kind)
-    : materials_(materials), kind_(kind) {
+    : materials_(materials), kind_(kind), block_volume_(block_size.prod()) {
   for (int q = 0; q < 27; ++q) {
     const Vec3 t = 0.5 * Vec3(q % 3, (q / 3) % 3, q / 9);
     for (int n = 0; n < 8; ++n) {
@@ -119,6 +119,31 @@ ElementAssembler::ElementAssembler(const Vec3& block_size, const std::vector<Mat
     }
     products_.push_back(std::move(products));
   }
+  prepare_stabilisation();
+}
+
+/// A few samples leave modes of a partly filled element without energy. They get this part of a full block's
+/// stiffness, as in the finite cell method, but only on the four hourglass patterns, so that affine fields
+/// stay exact.
+void ElementAssembler::prepare_stabilisation() {
+  constexpr double kPart = 1e-3;
+  ElementMatrix hourglass = ElementMatrix::Zero();
+  for (int i = 0; i < 24; ++i) {
+    for (int j = i % 3; j < 24; j += 3) {
+      const int differ = (i / 3) ^ (j / 3);
+      const double x = differ & 1 ? -1.0 : 1.0, y = differ & 2 ? -1.0 : 1.0, z = differ & 4 ? -1.0 : 1.0;
+      hourglass(i, j) = (x * y + y * z + z * x + x * y * z) / 8.0;
+    }
+  }
+  Fill full;
+  full.mask = ~std::uint64_t{0};
+  std::vector<ElementMatrix> stabilisation;
+  for (std::size_t m = 0; m < materials_.size(); ++m) {
+    std::vector<BlockWeights> weights(materials_.size(), BlockWeights::Zero());
+    weights[m] = voxel_weights(Vec3i::Zero(), 0, full, block_volume_);
+    stabilisation.push_back(kPart * hourglass * assemble(weights, weights).stiffness * hourglass);
+  }
+  stabilisation_ = std::move(stabilisation);
 }
 
 ElementAssembler::Sums ElementAssembler::integrate(const std::vector<BlockWeights>& weights) const {
@@ -155,19 +180,23 @@ ElementMatrix ElementAssembler::condense(const Sums& sums) const {
   return sums.stiffness.topLeftCorner<24, 24>() - K_au.transpose() * amplitudes;
 }
 
-ElementData ElementAssembler::assemble(const std::vector<BlockWeights>& weights) const {
+ElementData ElementAssembler::assemble(const std::vector<BlockWeights>& weights,
+                                       const std::vector<BlockWeights>& mass_weights) const {
   const Sums sums = integrate(weights);
   ElementData data;
   const ElementMatrix K = kind_ == ElementKind::kTrilinear
                               ? ElementMatrix(sums.stiffness.topLeftCorner<24, 24>())
                               : condense(sums);
   data.stiffness = 0.5 * (K + K.transpose());
+  if (sums.volume < (1.0 - 1e-9) * block_volume_)
+    for (std::size_t m = 0; m < weights.size(); ++m)
+      data.stiffness += weights[m].sum() / block_volume_ * stabilisation_[m];
   data.mean_gradient.setZero();
   data.mass.setZero();
   for (std::size_t m = 0; m < weights.size(); ++m) {
     for (int q = 0; q < 27; ++q) {
       data.mean_gradient += weights[m][q] / sums.volume * gradient_[q];
-      data.mass += materials_[m].density * weights[m][q] * shape_[q];
+      data.mass += materials_[m].density * mass_weights[m][q] * shape_[q];
     }
   }
   return data;

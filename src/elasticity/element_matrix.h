@@ -31,7 +31,10 @@ class ElementAssembler {
   ElementAssembler(const Vec3& block_size, const std::vector<Material>& materials, ElementKind kind);
 
   /// @param weights one per material
-  ElementData assemble(const std::vector<BlockWeights>& weights) const;
+  /// @param mass_weights the same, with tissue beside the block moved into it: extrapolated shape functions
+  /// would give negative masses
+  ElementData assemble(const std::vector<BlockWeights>& weights,
+                       const std::vector<BlockWeights>& mass_weights) const;
 
  private:
   static constexpr int kFunctions = 8 + 3;  // shape functions, Wilson's modes
@@ -44,10 +47,13 @@ class ElementAssembler {
 
   Sums integrate(const std::vector<BlockWeights>& weights) const;
   ElementMatrix condense(const Sums& sums) const;
+  void prepare_stabilisation();
 
   std::vector<Material> materials_;
   ElementKind kind_;
-  std::array<StrainMatrix, 27> strain_;  // 1/m
+  double block_volume_;                       // m³
+  std::vector<ElementMatrix> stabilisation_;  // N/m, per material; for a wholly filled block
+  std::array<StrainMatrix, 27> strain_;       // 1/m
   std::array<Eigen::Matrix<double, 8, 1>, 27> shape_;
   std::array<Eigen::Matrix<double, 3, 8>, 27> gradient_;  // 1/m
   std::vector<Elasticity> elasticity_;                    // Pa, per material

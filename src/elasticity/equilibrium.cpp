@@ -70,7 +70,14 @@ NodeField Equilibrium::forces(const NodeField& x) const {
 double Equilibrium::load(const NodeField& forces) const {
   double squares = weight_.squaredNorm();
   for (int node : held_.nodes) squares += forces.col(node).squaredNorm();
+  for (const PointConstraint& c : constraints_) squares += c.multiplier * c.multiplier;
   return std::max(std::sqrt(squares), kNegligibleForce * force_unit_);
+}
+
+double Equilibrium::rounding(const NodeField& x) const {
+  const double extent = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+  return 4e-16 * force_unit_ / model_.mesh().block_size().mean() * extent *
+         std::sqrt(static_cast<double>(x.size()));
 }
 
 SolveReport Equilibrium::solve_newton(ElementProduct& product, const SolverOptions& options, NodeField& x,
@@ -86,16 +93,17 @@ SolveReport Equilibrium::solve_newton(ElementProduct& product, const SolverOptio
       held_in_place = held_in_place && x.col(held_.nodes[i]) == held_.positions[i];
     initial = std::max(initial, f.norm());
     total.residual = f.norm() / reference;
-    total.converged = held_in_place && total.residual <= options.tolerance;
+    total.converged = held_in_place && (total.residual <= options.tolerance || f.norm() <= rounding(x));
     if (total.converged || newton == max_newton) return total;
     const double inner =
         std::clamp(0.3 * options.tolerance / std::max(total.residual, 1e-300), kTightestSolve, kLoosestSolve);
-    total.iterations += newton_step(product, options, inner, f, x).iterations;
+    if (!newton_step(product, options, inner, f, x, total)) return total;
   }
 }
 
-SolveReport Equilibrium::newton_step(ElementProduct& product, const SolverOptions& options, double tolerance,
-                                     const NodeField& f, NodeField& x) const {
+/// @return false if no step along the direction lowers the energy
+bool Equilibrium::newton_step(ElementProduct& product, const SolverOptions& options, double tolerance,
+                              const NodeField& f, NodeField& x, SolveReport& total) const {
   const Precision precision = precision_for(tolerance);
   product.set(model_, model_.rotations(x), precision);
   LinearSystem system(product, spring_, 1.0, constraints_, held_.nodes, precision);
@@ -106,29 +114,26 @@ SolveReport Equilibrium::newton_step(ElementProduct& product, const SolverOption
     dx.col(held_.nodes[i]) = held_.positions[i] - x.col(held_.nodes[i]);
     held_moves = held_moves || !dx.col(held_.nodes[i]).isZero(0.0);
   }
-  const SolveReport report =
-      solve(system, f, dx, tolerance, options.max_iterations, model_.mesh().block_size().mean());
-  if (held_moves) {
-    x += dx;
-    for (std::size_t i = 0; i < held_.nodes.size(); ++i) x.col(held_.nodes[i]) = held_.positions[i];
-  } else {
-    search_line(dx, f, x);
-  }
-  return report;
+  total.iterations +=
+      solve(system, f, dx, tolerance, options.max_iterations, model_.mesh().block_size().mean()).iterations;
+  if (!held_moves) return search_line(dx, f, x);
+  x += dx;
+  for (std::size_t i = 0; i < held_.nodes.size(); ++i) x.col(held_.nodes[i]) = held_.positions[i];
+  return true;
 }
 
 /// Backtracking to a sufficient decrease of the energy (Armijo 1966), up to its rounding.
-void Equilibrium::search_line(const NodeField& dx, const NodeField& f, NodeField& x) const {
+bool Equilibrium::search_line(const NodeField& dx, const NodeField& f, NodeField& x) const {
   const double slope = -f.cwiseProduct(dx).sum();
   const double before = energy(x);
-  const double rounding =
-      1e-12 * (std::abs(before) + kNegligibleForce * force_unit_ * model_.mesh().block_size().mean());
-  double length = 1.0;
-  for (int halving = 0; halving < 12; ++halving) {
-    if (energy(x + length * dx) <= before + 1e-4 * length * slope + rounding) break;
-    length *= 0.5;
+  const double size = std::abs(before) + kNegligibleForce * force_unit_ * model_.mesh().block_size().mean();
+  for (double length = 1.0; length > 1e-4; length *= 0.5) {
+    const NodeField moved = x + length * dx;
+    if (!(energy(moved) <= before + 1e-4 * length * slope + 1e-12 * size)) continue;
+    x = moved;
+    return true;
   }
-  x += length * dx;
+  return false;
 }
 
 }  // namespace cfem_cutting

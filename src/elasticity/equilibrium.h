@@ -22,9 +22,10 @@ class Equilibrium {
   double energy(const NodeField& x) const;     // J
   NodeField forces(const NodeField& x) const;  // N, also on held nodes
   double load(const NodeField& forces) const;  // N, size of what acts on the tissue
-  SolveReport newton_step(ElementProduct& product, const SolverOptions& options, double tolerance,
-                          const NodeField& forces, NodeField& x) const;
-  void search_line(const NodeField& dx, const NodeField& forces, NodeField& x) const;
+  double rounding(const NodeField& x) const;   // N, of a sum of forces at x
+  bool newton_step(ElementProduct& product, const SolverOptions& options, double tolerance,
+                   const NodeField& forces, NodeField& x, SolveReport& total) const;
+  bool search_line(const NodeField& dx, const NodeField& forces, NodeField& x) const;
   void find_floating_nodes();
   void clear_held(NodeField& field) const;
 

@@ -112,7 +112,9 @@ TEST(Equilibrium, ReactionsBalanceTheWeight) {
   const double floor = model.mesh().rest().row(2).minCoeff() + 0.011;
   const HeldNodes held = hold_where(model.mesh(), [&](const Vec3& X) { return X.z() < floor; });
   NodeField x = model.mesh().rest();
-  Integrator integrator(precise());
+  SolverOptions options = precise();
+  options.tolerance = 1e-9;
+  Integrator integrator(options);
   const Vec3 gravity(0, 0, -9.81);
   EXPECT_TRUE(integrator.equilibrate(model, x, gravity, held, {}, 60).converged);
   Vec3 sum = Vec3::Zero();
@@ -248,11 +250,12 @@ TEST(Step, SinglePrecisionAgreesWithDouble) {
                            ElementKind::kIncompatibleModes, Kinematics::kCorotational);
   SolverOptions options;
   options.max_iterations = 1000;
+  options.tolerance = 1e-5;  // the tightest in single precision
   Integrator single(options), twice(precise());
   ElasticState a{model.mesh().rest(), random_displacement(model.mesh().node_count(), 0.2, 1)}, b = a;
   EXPECT_TRUE(single.step(model, a, 0.01, Vec3::Zero(), {}, {}).converged);
   EXPECT_TRUE(twice.step(model, b, 0.01, Vec3::Zero(), {}, {}).converged);
-  EXPECT_LT((a.x - b.x).norm(), 1e-3 * (b.x - model.mesh().rest()).norm());
+  EXPECT_LT((a.x - b.x).norm(), 2e-3 * (b.x - model.mesh().rest()).norm());
   EXPECT_GT((a.x - b.x).norm(), 0.0);
 }
 

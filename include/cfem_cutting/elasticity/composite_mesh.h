@@ -14,7 +14,7 @@ using NodeField = Eigen::Matrix3Xd;
 /// lies at the corner (a, b, c).
 struct CompositeElement {
   Vec3i block;              ///< (voxel index − first_voxel()) >> level
-  std::vector<int> voxels;  ///< linked and hosted voxels, ascending
+  std::vector<int> voxels;  ///< linked and hosted voxels, ascending; a hosted one may lie beside the block
   std::array<int, 8> nodes{};
 };
 
