@@ -154,11 +154,8 @@ Recording read_bag(const BagRequest& request) {
     rosbag::Bag bag;
     bag.open(request.path, rosbag::bagmode::Read);
     return read_open_bag(bag, request);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw FileError(request.path + ": truncated or unindexed; run `rosbag reindex`");
   } catch (const ros::Exception& error) {
-    throw FileError(request.path + ": truncated, damaged or not a bag (" + error.what() +
-                    "); run `rosbag reindex`");
+    throw FileError(request.path + ": truncated or unindexed; run `rosbag reindex` (" + error.what() + ")");
   }
 }
 
