@@ -14,7 +14,8 @@ constexpr double kStiffness = 800.0;  // N/m
 class EdgeContactTest : public testing::Test {
  protected:
   EdgeContactTest()
-      : volume(VoxelVolume::sample(*make_box(Vec3(0.02, 0.02, 0.02), Pose::Identity()), Vec3::Constant(0.01))),
+      : volume(
+            VoxelVolume::sample(*make_box(Vec3(0.02, 0.02, 0.02), Pose::Identity()), Vec3::Constant(0.01))),
         mesh(volume, 0),
         x(mesh.rest()),
         contact(kSpacing, kStiffness, 0.5) {
@@ -27,7 +28,9 @@ class EdgeContactTest : public testing::Test {
   Front front_at(double z, double y = 0.0) const {
     return {{Vec3(0.01, y, z), Vec3(0.01, y + 0.02, z)}, Vec3::UnitZ()};
   }
-  void follow(double z, const Pose& motion = Pose::Identity()) { contact.follow(front_at(z), motion, mesh, x); }
+  void follow(double z, const Pose& motion = Pose::Identity()) {
+    contact.follow(front_at(z), motion, mesh, x);
+  }
 
   VoxelVolume volume;
   CompositeMesh mesh;

@@ -38,12 +38,13 @@ TEST_P(ThroughCut, stopped_short_leaves_one_piece) {
 TEST_P(ThroughCut, surface_stays_closed_and_keeps_its_volume) {
   const SimulationConfig config = box_config(0.004, GetParam());
   Simulation simulation = make_simulation(config);
-  drive(simulation, {at(0.0321, 0.016, 0.036), at(0.0321, 0.016, -0.02)}, 0.05, [&](const StepReport& report) {
-    if (report.events.empty()) return;
-    const SurfaceQuality quality = assess(simulation.surface().rest());
-    EXPECT_TRUE(quality.defects.closed());
-    EXPECT_TRUE(quality.defects.manifold());
-  });
+  drive(simulation, {at(0.0321, 0.016, 0.036), at(0.0321, 0.016, -0.02)}, 0.05,
+        [&](const StepReport& report) {
+          if (report.events.empty()) return;
+          const SurfaceQuality quality = assess(simulation.surface().rest());
+          EXPECT_TRUE(quality.defects.closed());
+          EXPECT_TRUE(quality.defects.manifold());
+        });
   EXPECT_NEAR(assess(simulation.surface().rest()).volume, config.tissue.box_size.prod(),
               0.01 * config.tissue.box_size.prod());
 }
@@ -58,10 +59,11 @@ struct Trace {
 Trace record_cut(const SimulationConfig& config) {
   Simulation simulation = make_simulation(config);
   Trace trace;
-  drive(simulation, {at(0.0321, 0.016, 0.036), at(0.0321, 0.016, 0.004)}, 0.02, [&](const StepReport& report) {
-    trace.force.push_back(report.spatial.force.z());
-    trace.fractured.push_back(!report.events.empty());
-  });
+  drive(simulation, {at(0.0321, 0.016, 0.036), at(0.0321, 0.016, 0.004)}, 0.02,
+        [&](const StepReport& report) {
+          trace.force.push_back(report.spatial.force.z());
+          trace.fractured.push_back(!report.events.empty());
+        });
   return trace;
 }
 
@@ -86,11 +88,12 @@ TEST(Simulation, immediate_mode_fractures_whenever_links_are_met) {
   config.fracture.mode = FractureMode::kImmediate;
   Simulation simulation = make_simulation(config);
   std::uint32_t severed = 0;
-  drive(simulation, {at(0.0321, 0.016, 0.036), at(0.0321, 0.016, 0.004)}, 0.02, [&](const StepReport& report) {
-    EXPECT_EQ(!report.events.empty(), report.links_severed > severed);
-    EXPECT_EQ(report.candidates, 0u);
-    severed = report.links_severed;
-  });
+  drive(simulation, {at(0.0321, 0.016, 0.036), at(0.0321, 0.016, 0.004)}, 0.02,
+        [&](const StepReport& report) {
+          EXPECT_EQ(!report.events.empty(), report.links_severed > severed);
+          EXPECT_EQ(report.candidates, 0u);
+          severed = report.links_severed;
+        });
   EXPECT_EQ(severed, 8u * 7u);
 }
 
@@ -111,7 +114,9 @@ TEST(Simulation, withdrawing_costs_no_force_and_cuts_nothing) {
   const std::int64_t severed = simulation.volume().severed_count();
   int step = 0;
   drive(simulation, {deep, at(0.0321, 0.016, 0.04)}, 0.05, [&](const StepReport& report) {
-    if (++step > 10) EXPECT_LT(report.spatial.force.norm(), 1e-6) << "step " << step;
+    if (++step > 10) {
+      EXPECT_LT(report.spatial.force.norm(), 1e-6) << "step " << step;
+    }
   });
   EXPECT_EQ(simulation.volume().severed_count(), severed);
 }

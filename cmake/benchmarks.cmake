@@ -1,0 +1,11 @@
+# Benchmarks (Google Benchmark): build with -DCFEM_CUTTING_BENCHMARKS=ON, run .build/benchmark_<name>.
+if(NOT CFEM_CUTTING_BENCHMARKS)
+  return()
+endif()
+find_package(benchmark REQUIRED)
+
+foreach(name elasticity cutting)
+  add_executable(benchmark_${name} benchmark/${name}_benchmark.cpp)
+  target_compile_definitions(benchmark_${name} PRIVATE CFEM_CUTTING_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
+  target_link_libraries(benchmark_${name} PRIVATE cfem_cutting_io cfem_cutting_options benchmark::benchmark)
+endforeach()
