@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "cfem_cutting/geometry/polyline.h"
+#include "cfem_cutting/volume/inside.h"
 
 namespace cfem_cutting {
 namespace {
@@ -21,9 +22,17 @@ void for_buckets(const Vec3& low, const Vec3& high, double cell, Visit visit) {
       }
 }
 
-bool in_tissue(const VoxelVolume& volume, const Vec3& X) {
-  const int voxel = volume.find(volume.lattice().voxel_at(X));
-  return voxel >= 0 && volume.voxel(voxel).linked();
+/// Whether a triangle lies over or under a point: the foot of the perpendicular is in it, at most `reach`
+/// away.
+bool covers(const SweptTriangle& t, const Vec3& X, double reach) {
+  const Vec3 n = t.normal();
+  const double twice_area = n.norm();
+  if (!(twice_area > 0.0) || std::abs(n.dot(X - t.corners[0])) > reach * twice_area) return false;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3& a = t.corners[i];
+    if (n.dot((t.corners[(i + 1) % 3] - a).cross(X - a)) < 0.0) return false;
+  }
+  return true;
 }
 
 /// Centroids of a triangle's 16 equal parts (4 a side).
@@ -47,14 +56,13 @@ std::array<Vec3, 16> part_centroids(const SweptTriangle& t) {
 CutSurface::CutSurface(double cell) : cell_(cell) {}
 
 double CutSurface::add(const VoxelVolume& volume, const std::vector<SweptTriangle>& triangles) {
-  const double near = 0.25 * cell_;
   double area = 0.0;
   for (const SweptTriangle& t : triangles) {
     int opened = 0;
-    for (const Vec3& X : part_centroids(t)) opened += in_tissue(volume, X) && distance(X, near) > near;
+    for (const Vec3& X : part_centroids(t)) opened += tissue_voxel_at(volume, X) >= 0 && !covered(X);
     area += 0.5 * t.normal().norm() * opened / 16.0;
+    if (opened > 0) insert(t);
   }
-  for (const SweptTriangle& t : triangles) insert(t);
   return area;
 }
 
@@ -66,16 +74,28 @@ void CutSurface::insert(const SweptTriangle& t) {
   for_buckets(low, high, cell_, [&](std::int64_t key) { buckets_[key].push_back(index); });
 }
 
-double CutSurface::distance(const Vec3& X, double radius) const {
-  double nearest = std::numeric_limits<double>::infinity();
+template <typename Visit>
+void CutSurface::for_near(const Vec3& X, double radius, Visit visit) const {
   const Vec3 reach = Vec3::Constant(radius);
   for_buckets(X - reach, X + reach, cell_, [&](std::int64_t key) {
     const auto bucket = buckets_.find(key);
     if (bucket == buckets_.end()) return;
-    for (const int i : bucket->second) {
-      const auto& [a, b, c] = triangles_[i].corners;
-      nearest = std::min(nearest, point_triangle_distance(X, a, b, c));
-    }
+    for (const int i : bucket->second) visit(triangles_[i]);
+  });
+}
+
+bool CutSurface::covered(const Vec3& X) const {
+  const double reach = 0.25 * cell_;
+  bool is_covered = false;
+  for_near(X, reach, [&](const SweptTriangle& t) { is_covered = is_covered || covers(t, X, reach); });
+  return is_covered;
+}
+
+double CutSurface::distance(const Vec3& X, double radius) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for_near(X, radius, [&](const SweptTriangle& t) {
+    const auto& [a, b, c] = t.corners;
+    nearest = std::min(nearest, point_triangle_distance(X, a, b, c));
   });
   return nearest <= radius ? nearest : std::numeric_limits<double>::infinity();
 }

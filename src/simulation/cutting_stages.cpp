@@ -24,7 +24,8 @@ void Simulation::State::sweep(const StepInput& input) {
 
 /// Collects the links that a motion meets, and binds points of the front that came into tissue.
 void Simulation::State::meet(const FrontMotion& moved) {
-  unit.collect(moved.swept, find_crossings(volume, moved.swept));
+  trail.follow(moved.before, moved.after);
+  unit.collect(find_crossings(volume, cfem_cutting::sweep(moved.before, moved.after)));
   if (immediate()) return;
   const bool first_touch = contact.empty();
   const double in_cut = 0.25 * volume.lattice().spacing.minCoeff();
@@ -43,12 +44,13 @@ void Simulation::State::meet(const FrontMotion& moved) {
     const Vec3 x_ref = model.mesh().embed(p.voxel, p.X).apply(reference);
     return forward.dot(project(tracker.front().points, x_ref).point - x_ref) < -retreat;
   });
-  if (contact.empty() && tracker.inside().empty()) unit.drop();
+  if (contact.empty() && tracker.inside().empty()) leave_tissue();
 }
 
 void Simulation::State::leave_tissue() {
   contact.clear();
   unit.drop();
+  trail.drop();
 }
 
 double Simulation::State::contact_offset(const OffsetField& offsets) const {
@@ -135,7 +137,8 @@ void Simulation::State::advance_cut_end() {
 void Simulation::State::describe(const Fracture& fracture, FractureEvent& event) {
   event.unit = unit.number;
   event.links_severed = static_cast<std::uint32_t>(fracture.severed.size());
-  event.area = cut_surface.add(volume, unit.swept());
+  const std::vector<SweptTriangle> swept = trail.take();
+  event.area = cut_surface.add(volume, swept);
   event.largest_offset = unit.largest_offset;
   event.blade_work = unit.blade_work;
   event.peak_force = unit.peak_force;
@@ -144,7 +147,7 @@ void Simulation::State::describe(const Fracture& fracture, FractureEvent& event)
   Vec3 weighted_centre = Vec3::Zero();
   Vec3 normal = Vec3::Zero();
   double weight = 0.0;
-  for (const SweptTriangle& t : unit.swept()) {
+  for (const SweptTriangle& t : swept) {
     const double area = t.normal().norm();
     weighted_centre += area / 3.0 * (t.corners[0] + t.corners[1] + t.corners[2]);
     normal += t.normal();

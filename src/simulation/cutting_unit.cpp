@@ -22,8 +22,7 @@ std::optional<Vec3> nearest_on(const std::vector<Polyline>& front, const Vec3& q
 
 }  // namespace
 
-void CuttingUnit::collect(const std::vector<SweptTriangle>& swept, const std::vector<Crossing>& crossings) {
-  swept_.insert(swept_.end(), swept.begin(), swept.end());
+void CuttingUnit::collect(const std::vector<Crossing>& crossings) {
   for (const Crossing& crossing : crossings) {
     const auto at =
         std::lower_bound(candidates_.begin(), candidates_.end(), crossing.link,
@@ -53,17 +52,13 @@ void CuttingUnit::measure(const VoxelVolume& volume, const OffsetField& offsets,
                     candidates_.end());
 }
 
-void CuttingUnit::drop() {
-  candidates_.clear();
-  swept_.clear();
-}
+void CuttingUnit::drop() { candidates_.clear(); }
 
 void CuttingUnit::begin_next(const std::vector<Candidate>& waiting) {
   ++number;
   blade_work = 0.0;
   peak_force = 0.0;
   candidates_ = waiting;
-  swept_.clear();
 }
 
 }  // namespace cfem_cutting

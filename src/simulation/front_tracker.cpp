@@ -24,11 +24,12 @@ std::vector<Pose> FrontTracker::subdivide(const Pose& X_TB) const {
 }
 
 FrontMotion FrontTracker::move(const Pose& X_TB, const VoxelVolume& volume, const InverseMap& reference) {
-  const MaterialFront before = std::move(material_);
-  place_anew(X_TB, reference);
   FrontMotion motion;
-  motion.swept = sweep(before, material_);
+  motion.before = std::move(material_);
+  place_anew(X_TB, reference);
+  motion.after = material_;
   motion.touches = inside();
+  const MaterialFront& before = motion.before;
   std::size_t touch = 0;
   for (std::size_t i = 0; i < material_.size(); ++i) {
     if (!material_[i] || !material_[i]->inside) continue;

@@ -54,6 +54,7 @@ Simulation::State::State(const SimulationConfig& config_in, VoxelVolume uncut, c
       tracker(blade, contact_spacing(volume)),
       contact(contact_spacing(volume), kContactStiffness * stiffest(config.tissue.materials) * block,
               blade.friction),
+      trail(0.125 * volume.lattice().spacing.minCoeff()),
       cut_surface(volume.lattice().spacing.maxCoeff()),
       extractor(volume) {
   grips.find_nodes(model.mesh());

@@ -4,6 +4,7 @@
 
 #include "cfem_cutting/contact/edge_contact.h"
 #include "cfem_cutting/cutting/cut_surface.h"
+#include "cfem_cutting/cutting/swept_trail.h"
 #include "cfem_cutting/simulation/cutting_unit.h"
 #include "cfem_cutting/simulation/front_tracker.h"
 #include "cfem_cutting/simulation/grips.h"
@@ -56,6 +57,7 @@ struct Simulation::State {
   EdgeContact contact;
   std::vector<PointConstraint> constraints;
   CuttingUnit unit;
+  SweptTrail trail;
   CutSurface cut_surface;
   SurfaceExtractor extractor;
   Pose motion = Pose::Identity();  // of the blade in this step, in T

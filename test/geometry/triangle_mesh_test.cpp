@@ -1,6 +1,7 @@
 #include "cfem_cutting/geometry/triangle_mesh.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -29,7 +30,9 @@ TriangleMesh join(TriangleMesh first, const TriangleMesh& second) {
 
 class MeshFiles : public testing::Test {
  protected:
-  MeshFiles() : folder_(std::filesystem::path(testing::TempDir()) / "cfem_cutting_mesh_files") {
+  MeshFiles()
+      : folder_(std::filesystem::path(testing::TempDir()) /
+                ("cfem_cutting_mesh_files_" + std::to_string(getpid()))) {
     std::filesystem::create_directories(folder_);
   }
   ~MeshFiles() override { std::filesystem::remove_all(folder_); }

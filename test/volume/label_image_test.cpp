@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <filesystem>
@@ -44,7 +45,9 @@ std::string gzipped(const std::string& data) {
 
 class LabelImageFiles : public testing::Test {
  protected:
-  LabelImageFiles() : folder_(std::filesystem::path(testing::TempDir()) / "cfem_cutting_label_images") {
+  LabelImageFiles()
+      : folder_(std::filesystem::path(testing::TempDir()) /
+                ("cfem_cutting_label_images_" + std::to_string(getpid()))) {
     std::filesystem::create_directories(folder_);
   }
   ~LabelImageFiles() override { std::filesystem::remove_all(folder_); }

@@ -14,8 +14,8 @@ class CutSurface {
   /// @param cell m, bucket size (a voxel); also the scale of "near"
   explicit CutSurface(double cell);
 
-  /// Adds triangles and returns the area (m²) that is inside tissue and was not within a quarter of a cell of
-  /// the surface before.
+  /// Adds triangles and returns the area (m²) that is inside tissue and new: old is what lies over or under
+  /// the surface so far, at most a quarter of a cell away. Triangles that are all old are not kept.
   double add(const VoxelVolume& volume, const std::vector<SweptTriangle>& triangles);
 
   /// Distance to the surface if within `radius` ≤ cell, else infinity, m.
@@ -25,6 +25,9 @@ class CutSurface {
 
  private:
   void insert(const SweptTriangle& triangle);
+  bool covered(const Vec3& X) const;
+  template <typename Visit>
+  void for_near(const Vec3& X, double radius, Visit visit) const;
 
   double cell_;
   std::vector<SweptTriangle> triangles_;

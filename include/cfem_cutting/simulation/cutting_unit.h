@@ -6,8 +6,7 @@
 
 namespace cfem_cutting {
 
-/// The deformation–fracture unit in progress: what the front has swept since the last fracture, and the links
-/// that wait to be severed.
+/// The deformation–fracture unit in progress: the links that the front has met and that wait to be severed.
 class CuttingUnit {
  public:
   std::uint32_t number = 1;
@@ -16,10 +15,9 @@ class CuttingUnit {
   double largest_offset = 0.0;  ///< m, of the contact points, now
 
   const std::vector<Candidate>& candidates() const { return candidates_; }
-  const std::vector<SweptTriangle>& swept() const { return swept_; }
 
-  /// Adds a sweep and the links that it meets; a link that waits already is met once.
-  void collect(const std::vector<SweptTriangle>& swept, const std::vector<Crossing>& crossings);
+  /// Adds the links that a sweep meets; a link that waits already is met once.
+  void collect(const std::vector<Crossing>& crossings);
 
   /// Updates the candidates' offsets and their distances from the front; drops those that the front has
   /// retreated from by more than two blocks.
@@ -35,7 +33,6 @@ class CuttingUnit {
 
  private:
   std::vector<Candidate> candidates_;  // sorted by link
-  std::vector<SweptTriangle> swept_;
 };
 
 }  // namespace cfem_cutting

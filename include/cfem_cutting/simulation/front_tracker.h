@@ -16,9 +16,10 @@ struct Touch {
   int voxel;     ///< linked voxel that carries X
 };
 
-/// What the front did in one motion.
+/// What the front did in one motion, in material space.
 struct FrontMotion {
-  std::vector<SweptTriangle> swept;
+  MaterialFront before;
+  MaterialFront after;
   std::vector<Touch> touches;  ///< along the edge
 };
 
