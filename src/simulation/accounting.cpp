@@ -45,14 +45,15 @@ void Simulation::State::take_wrench() {
   unit.peak_force = std::max(unit.peak_force, wrench.force.norm());
 }
 
-/// Largest distance of the edge, where it holds tissue, from the drawn surface.
+/// Largest distance of the edge, where it holds a crease or a cut's end, from the drawn surface.
 double Simulation::State::blade_distance() const {
   if (!contact.pushes()) return 0.0;
   const DeformedSurface drawn = deform(extractor.surface(), model.mesh(), elastic.x, tracker.front().points);
   const double radius = 3.0 * volume.lattice().spacing.maxCoeff();
   double largest = 0.0;
   for (const EdgeContactPoint& p : contact.points())
-    if (p.active) largest = std::max(largest, point_to_mesh(p.on_edge, drawn, radius));
+    if (p.active && extractor.reaches(p.X))
+      largest = std::max(largest, point_to_mesh(p.on_edge, drawn, radius));
   return largest;
 }
 

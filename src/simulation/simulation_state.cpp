@@ -98,8 +98,6 @@ FrontTrace Simulation::State::front_trace() const {
     trace.back().push_back(p.X);
     last = p.along;
   }
-  trace.erase(std::remove_if(trace.begin(), trace.end(), [](const Polyline& run) { return run.size() < 2; }),
-              trace.end());
   return trace;
 }
 

@@ -1,5 +1,6 @@
 #include "adaptation.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "front_walk.h"
@@ -72,7 +73,7 @@ std::vector<Bound> without_short(const Contour& contour, std::vector<Bound> boun
     const double length = bound[i].piece.length;
     const bool at_end = kept.empty() || i + 1 == bound.size();
     const bool dispensable =
-        at_end ? length < kShortEnd * h
+        at_end ? length < kShortEnd * h && bound.size() > 1
                : length < kShortPiece * h &&
                      share_quad(contour.volume(), kept.back().piece.cell, bound[i + 1].piece.cell);
     if (!dispensable) kept.push_back(std::move(bound[i]));
@@ -95,6 +96,11 @@ void adapt(Contour& contour, const FrontTrace& trace) {
   for (const Polyline& polyline : trace)
     for (const Bound& b : without_short(contour, find_bound(contour, polyline)))
       bind(contour.cells()[b.cell].groups[b.group], b.piece);
+}
+
+bool holds_crease(const DualCell& cell) {
+  return std::any_of(cell.groups.begin(), cell.groups.end(),
+                     [](const SheetGroup& group) { return group.cut_end || group.skin; });
 }
 
 void freeze_cut_ends(Contour& contour) {

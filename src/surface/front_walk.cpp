@@ -67,8 +67,13 @@ Vec3 point_along(const Polyline& points, double along) {
 
 }  // namespace
 
+Vec3i dual_cell_at(const Lattice& lattice, const Vec3& X) {
+  return to_cells(lattice, X).array().floor().cast<int>();
+}
+
 std::vector<FrontPiece> walk_dual_cells(const Lattice& lattice, const Polyline& polyline) {
   std::vector<FrontPiece> pieces;
+  if (polyline.size() == 1) pieces.push_back({dual_cell_at(lattice, polyline[0]), polyline});
   for (std::size_t i = 0; i + 1 < polyline.size(); ++i)
     walk_segment(lattice, polyline[i], polyline[i + 1], pieces);
   if (!pieces.empty()) pieces.front().first = pieces.back().last = true;
@@ -76,6 +81,7 @@ std::vector<FrontPiece> walk_dual_cells(const Lattice& lattice, const Polyline& 
 }
 
 Vec3 project_within(const FrontPiece& piece, const Vec3& query) {
+  if (piece.points.size() == 1) return piece.points[0];
   const PolylineProjection nearest = project(piece.points, query);
   double along = (nearest.point - piece.points[nearest.segment]).norm();
   for (int i = 0; i < nearest.segment; ++i) along += (piece.points[i + 1] - piece.points[i]).norm();

@@ -10,14 +10,17 @@ namespace cfem_cutting {
 /// The part of a polyline in one dual cell.
 struct FrontPiece {
   Vec3i cell;
-  Polyline points;      ///< m, two or more
+  Polyline points;      ///< m, two or more, or the polyline's only one
   double length = 0.0;  ///< m
   bool first = false;   ///< the polyline begins here
   bool last = false;    ///< the polyline ends here
 };
 
-/// The dual cells that a polyline runs through, in order; consecutive ones differ. A polyline on a boundary
-/// between cells is in the one of larger index.
+/// The dual cell that holds a point; on a boundary, the one of larger index.
+Vec3i dual_cell_at(const Lattice& lattice, const Vec3& X);
+
+/// The dual cells that a polyline of one or more points runs through, in order; consecutive ones differ. A
+/// polyline on a boundary between cells is in the one of larger index.
 std::vector<FrontPiece> walk_dual_cells(const Lattice& lattice, const Polyline& polyline);
 
 /// The point of a piece nearest to a query. It keeps a part of the piece's length off ends at which the

@@ -1,5 +1,6 @@
 #include "adaptation.h"
 #include "cfem_cutting/surface/tissue_surface.h"
+#include "front_walk.h"
 #include "mesher.h"
 
 namespace cfem_cutting {
@@ -35,6 +36,11 @@ const TissueSurface& SurfaceExtractor::extract(const FrontTrace& trace) {
 void SurfaceExtractor::freeze() {
   freeze_cut_ends(s_->contour);
   s_->freeze_next = true;
+}
+
+bool SurfaceExtractor::reaches(const Vec3& X) const {
+  const int cell = s_->contour.find(dual_cell_at(s_->contour.volume().lattice(), X));
+  return cell >= 0 && holds_crease(s_->contour.cells()[cell]);
 }
 
 TriangleMesh TissueSurface::rest() const {

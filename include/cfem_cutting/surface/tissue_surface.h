@@ -52,6 +52,10 @@ class SurfaceExtractor {
 
   const TissueSurface& surface() const;
 
+  /// Whether the dual cell of a material point holds skin or a cut's end: what the adaptation can place
+  /// there. (A blade in uncut tissue, or in a stab that is narrower than a voxel, has no surface around it.)
+  bool reaches(const Vec3& X) const;
+
  private:
   struct State;
   std::unique_ptr<State> s_;
