@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "union_find.h"
+#include "voxel_joints.h"
 
 namespace cfem_cutting {
 namespace {
@@ -17,40 +18,53 @@ Vec3i smallest_index(const VoxelVolume& volume) {
   return smallest;
 }
 
-/// Calls f(v, w) once for every pair of joined voxels: by an intact link, or as hosted voxel and host.
-template <typename Function>
-void for_each_joint(const VoxelVolume& volume, const Function& f) {
-  for (int v = 0; v < static_cast<int>(volume.voxels().size()); ++v) {
-    const Voxel& voxel = volume.voxel(v);
-    if (!voxel.linked()) {
-      f(v, voxel.host);
-      continue;
-    }
-    for (int upward = 1; upward < kDirections; upward += 2)
-      if (voxel.link[upward] == LinkState::kIntact) f(v, voxel.neighbour[upward]);
-  }
-}
+using Joints = std::vector<std::pair<int, int>>;
 
-/// The block of each voxel; a hosted voxel counts as part of its host's block (aggregation; Badia, Verdugo
-/// and Martín 2018). An element of its own would be a sliver, and hang on a hinge where it touches the host's
-/// block at an edge.
-std::vector<Vec3i> assign_blocks(const VoxelVolume& volume, const CompositeMesh& mesh) {
-  std::vector<Vec3i> block;
-  block.reserve(volume.voxels().size());
-  for (const Voxel& voxel : volume.voxels())
-    block.push_back(mesh.block_of(voxel.linked() ? voxel.index : volume.voxel(voxel.host).index));
-  return block;
-}
+/// Tissue without a linked voxel is an element of its own if it fills at least this part of its block.
+constexpr double kSmallestElement = 0.1;
 
 /// Root voxel of the component inside its block, per voxel.
-std::vector<int> components_in_blocks(const VoxelVolume& volume, const std::vector<Vec3i>& block) {
+std::vector<int> components_in_blocks(const Joints& joints, const std::vector<Vec3i>& block) {
   UnionFind sets(static_cast<int>(block.size()));
-  for_each_joint(volume, [&](int v, int w) {
+  for (const auto& [v, w] : joints)
     if (block[v] == block[w]) sets.unite(v, w);
-  });
   std::vector<int> root(block.size());
   for (std::size_t v = 0; v < root.size(); ++v) root[v] = sets.find(static_cast<int>(v));
   return root;
+}
+
+/// Per root whether its component can be an element: it has a linked voxel, or enough tissue and a face in
+/// common with linked tissue. Others would be slivers, or hang on a hinge.
+std::vector<char> sound_components(const VoxelVolume& volume, const Joints& joints,
+                                   const std::vector<Vec3i>& block, const std::vector<int>& root, int level) {
+  std::vector<char> sound(root.size(), 0), has_face(root.size(), 0);
+  std::vector<double> filled(root.size(), 0.0);  // of a block
+  for (const auto& [v, w] : joints) {
+    if ((block[v] - block[w]).cwiseAbs().sum() != 1) continue;
+    if (volume.voxel(w).linked()) has_face[root[v]] = 1;
+    if (volume.voxel(v).linked()) has_face[root[w]] = 1;
+  }
+  for (std::size_t v = 0; v < root.size(); ++v) {
+    const Voxel& voxel = volume.voxels()[v];
+    if (voxel.linked()) sound[root[v]] = 1;
+    filled[root[v]] += voxel.fill.fraction() / (1 << (3 * level));
+  }
+  for (std::size_t r = 0; r < root.size(); ++r)
+    if (has_face[r] && filled[r] >= kSmallestElement) sound[r] = 1;
+  return sound;
+}
+
+/// The block of each voxel: its own, but the voxels of unsound components count as part of their hosts'
+/// blocks (aggregation; Badia, Verdugo and Martín 2018).
+std::vector<Vec3i> assign_blocks(const VoxelVolume& volume, const CompositeMesh& mesh, const Joints& joints) {
+  std::vector<Vec3i> block;
+  block.reserve(volume.voxels().size());
+  for (const Voxel& voxel : volume.voxels()) block.push_back(mesh.block_of(voxel.index));
+  const std::vector<int> root = components_in_blocks(joints, block);
+  const std::vector<char> sound = sound_components(volume, joints, block, root, mesh.level());
+  for (std::size_t v = 0; v < block.size(); ++v)
+    if (!sound[root[v]]) block[v] = mesh.block_of(volume.voxel(volume.voxels()[v].host).index);
+  return block;
 }
 
 /// Voxels in the order of their elements: by block (z, y, x), then by the component's first voxel.
@@ -101,8 +115,9 @@ CompositeMesh::CompositeMesh(const VoxelVolume& volume, int level)
       first_voxel_(smallest_index(volume)),
       block_size_(volume.lattice().spacing * (1 << level)),
       element_of_voxel_(volume.voxels().size(), -1) {
-  const std::vector<Vec3i> block = assign_blocks(volume, *this);
-  const std::vector<int> root = components_in_blocks(volume, block);
+  const Joints joints = voxel_joints(volume);
+  const std::vector<Vec3i> block = assign_blocks(volume, *this, joints);
+  const std::vector<int> root = components_in_blocks(joints, block);
   for (int v : sort_by_element(block, root)) {
     const bool starts_element = elements_.empty() || root[elements_.back().voxels.front()] != root[v];
     if (starts_element) elements_.push_back({block[v], {}, {}});
@@ -111,10 +126,10 @@ CompositeMesh::CompositeMesh(const VoxelVolume& volume, int level)
   }
 
   UnionFind nodes(static_cast<int>(8 * elements_.size()));
-  for_each_joint(volume, [&](int v, int w) {
+  for (const auto& [v, w] : joints) {
     const int a = element_of_voxel_[v], b = element_of_voxel_[w];
     if (a != b) unite_shared_corners(nodes, a, b, elements_[b].block - elements_[a].block);
-  });
+  }
   rest_.resize(3, number_nodes(nodes, elements_));
   for (const CompositeElement& element : elements_)
     for (int n = 0; n < 8; ++n)
@@ -140,7 +155,12 @@ std::vector<int> parent_nodes(const CompositeMesh& before, const CompositeMesh& 
   assert(before.level() == after.level());
   std::vector<int> parent(after.node_count(), -1);
   for (const CompositeElement& element : after.elements()) {
-    const CompositeElement& old = before.elements()[before.element_of_voxel(element.voxels.front())];
+    // A hosted voxel can have come from a neighbouring block.
+    const auto stayed = std::find_if(element.voxels.begin(), element.voxels.end(), [&](int v) {
+      return before.elements()[before.element_of_voxel(v)].block == element.block;
+    });
+    assert(stayed != element.voxels.end());
+    const CompositeElement& old = before.elements()[before.element_of_voxel(*stayed)];
     for (int n = 0; n < 8; ++n) parent[element.nodes[n]] = old.nodes[n];
   }
   return parent;
