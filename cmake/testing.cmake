@@ -21,6 +21,16 @@ foreach(room geometry volume elasticity blade cutting contact surface simulation
   add_room_test(${room})
 endforeach()
 
+# Closed forms, balances and other codes: what doc/verification.md lists.
+set(verification_dir ${CMAKE_BINARY_DIR}/verification)
+file(GLOB analytic_sources CONFIGURE_DEPENDS test/analytic/*.cpp)
+list(FILTER analytic_sources EXCLUDE REGEX _main\\.cpp$)
+add_executable(test_analytic ${analytic_sources})
+target_include_directories(test_analytic PRIVATE test)
+target_compile_definitions(test_analytic PRIVATE CFEM_CUTTING_VERIFICATION_DIR="${verification_dir}")
+target_link_libraries(test_analytic PRIVATE cfem_cutting_elasticity cfem_cutting_options GTest::gtest_main)
+gtest_discover_tests(test_analytic TEST_PREFIX analytic. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+
 # The installed core serves a project without ROS.
 add_test(NAME install COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_BINARY_DIR}
   -P ${CMAKE_CURRENT_SOURCE_DIR}/test/install/install_test.cmake)
