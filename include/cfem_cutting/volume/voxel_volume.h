@@ -52,7 +52,7 @@ class VoxelVolume {
   /// its centre is in tissue; should all its samples miss that tissue, the eight about its centre count as
   /// filled. An unlinked voxel goes to its best-filled linked face neighbour, else edge or corner neighbour.
   /// @throw GeometryError no voxel centre in tissue; more than `max_voxels` lattice voxels.
-  static VoxelVolume sample(const Shape& shape, const Vec3& spacing, std::int64_t max_voxels = 200'000'000);
+  static VoxelVolume sample(const Shape& shape, const Vec3& spacing, std::int64_t max_voxels = 20'000'000);
 
   const Lattice& lattice() const { return lattice_; }
   const std::vector<Voxel>& voxels() const { return voxels_; }
