@@ -31,6 +31,14 @@ target_compile_definitions(test_analytic PRIVATE CFEM_CUTTING_VERIFICATION_DIR="
 target_link_libraries(test_analytic PRIVATE cfem_cutting_elasticity cfem_cutting_options GTest::gtest_main)
 gtest_discover_tests(test_analytic TEST_PREFIX analytic. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+add_executable(calculix_export test/analytic/calculix_export_main.cpp)
+target_include_directories(calculix_export PRIVATE test test/analytic)
+target_link_libraries(calculix_export PRIVATE cfem_cutting_elasticity cfem_cutting_options)
+add_test(NAME analytic.calculix COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/test/analytic/compare_with_calculix.py $<TARGET_FILE:calculix_export>
+  ${CMAKE_BINARY_DIR}/calculix ${verification_dir}/calculix.tsv)
+
 # The installed core serves a project without ROS.
 add_test(NAME install COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_BINARY_DIR}
   -P ${CMAKE_CURRENT_SOURCE_DIR}/test/install/install_test.cmake)
