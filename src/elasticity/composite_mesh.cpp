@@ -10,8 +10,6 @@
 namespace cfem_cutting {
 namespace {
 
-Vec3i corner_bits(int n) { return {n & 1, (n >> 1) & 1, (n >> 2) & 1}; }
-
 Vec3i smallest_index(const VoxelVolume& volume) {
   Vec3i smallest = volume.lattice().size;
   for (const Voxel& voxel : volume.voxels()) smallest = smallest.cwiseMin(voxel.index);

@@ -197,8 +197,9 @@ std::vector<Mat3> ElasticModel::rotations(const NodeField& x) const {
   return rotations;
 }
 
-const ElementMatrix& ElasticModel::stiffness(int element) const {
-  return matrices_->of_element[element]->stiffness;
+std::shared_ptr<const ElementMatrix> ElasticModel::shared_stiffness(int element) const {
+  const auto& data = matrices_->of_element[element];
+  return {data, &data->stiffness};
 }
 
 int ElasticModel::inverted_elements() const { return matrices_->inverted; }

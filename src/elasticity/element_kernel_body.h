@@ -33,13 +33,26 @@ static inline void multiply_shared(const KERNEL_SCALAR* K, const Vector* u, Vect
   }
 }
 
+/// Each entry below the diagonal serves twice.
 static inline void multiply_own(const KERNEL_SCALAR* K, const Vector* u, Vector* f) {
-  for (int row = 0; row < 24; row += kRows) {
-    Vector sum[kRows] = {};
-    for (int j = 0; j < 24; ++j)
-      for (int r = 0; r < kRows; ++r) sum[r] += load(K + 16 * (24 * j + row + r)) * u[j];
-    for (int r = 0; r < kRows; ++r) f[row + r] = sum[r];
+  Vector sum[24] = {};
+#pragma GCC unroll 24
+  for (int j = 0; j < 24; ++j) {
+    const KERNEL_SCALAR* column = K + 16 * (24 * j - j * (j - 1) / 2);
+    Vector even = load(column) * u[j], odd = {};
+#pragma GCC unroll 24
+    for (int i = j + 1; i < 24; ++i) {
+      const Vector k = load(column + 16 * (i - j));
+      sum[i] += k * u[j];
+      if (i & 1) {
+        odd += k * u[i];
+      } else {
+        even += k * u[i];
+      }
+    }
+    sum[j] += even + odd;
   }
+  for (int i = 0; i < 24; ++i) f[i] = sum[i];
 }
 
 static void multiply(const ElementBatch<KERNEL_SCALAR>& batch) {

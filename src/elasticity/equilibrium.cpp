@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "union_find.h"
-#include "workspace.h"
 
 namespace cfem_cutting {
 namespace {
@@ -80,7 +79,7 @@ double Equilibrium::rounding(const NodeField& x) const {
          std::sqrt(static_cast<double>(x.size()));
 }
 
-SolveReport Equilibrium::solve_newton(ElementProduct& product, const SolverOptions& options, NodeField& x,
+SolveReport Equilibrium::solve_newton(Multigrid& multigrid, const SolverOptions& options, NodeField& x,
                                       int max_newton) const {
   SolveReport total;
   double initial = 0.0;
@@ -97,17 +96,15 @@ SolveReport Equilibrium::solve_newton(ElementProduct& product, const SolverOptio
     if (total.converged || newton == max_newton) return total;
     const double inner =
         std::clamp(0.3 * options.tolerance / std::max(total.residual, 1e-300), kTightestSolve, kLoosestSolve);
-    if (!newton_step(product, options, inner, f, x, total)) return total;
+    if (!newton_step(multigrid, options, inner, f, x, total)) return total;
   }
 }
 
 /// @return false if no step along the direction lowers the energy
-bool Equilibrium::newton_step(ElementProduct& product, const SolverOptions& options, double tolerance,
+bool Equilibrium::newton_step(Multigrid& multigrid, const SolverOptions& options, double tolerance,
                               const NodeField& f, NodeField& x, SolveReport& total) const {
-  const Precision precision = precision_for(tolerance);
-  product.set(model_, model_.rotations(x), precision);
-  LinearSystem system(product, spring_, 1.0, constraints_, held_.nodes, precision);
-  system.prepare(model_);
+  const LinearSystem system(multigrid, model_, model_.rotations(x), {spring_, 1.0, &constraints_}, held_.nodes,
+                            precision_for(tolerance));
   NodeField dx = NodeField::Zero(3, x.cols());
   bool held_moves = false;
   for (std::size_t i = 0; i < held_.nodes.size(); ++i) {

@@ -15,7 +15,7 @@ class Equilibrium {
 
   /// Newton's method with backtracking. The tangent leaves out ∂R/∂x, so convergence is linear, at a rate of
   /// about the strain.
-  SolveReport solve_newton(ElementProduct& product, const SolverOptions& options, NodeField& x,
+  SolveReport solve_newton(Multigrid& multigrid, const SolverOptions& options, NodeField& x,
                            int max_newton) const;
 
  private:
@@ -23,7 +23,7 @@ class Equilibrium {
   NodeField forces(const NodeField& x) const;  // N, also on held nodes
   double load(const NodeField& forces) const;  // N, size of what acts on the tissue
   double rounding(const NodeField& x) const;   // N, of a sum of forces at x
-  bool newton_step(ElementProduct& product, const SolverOptions& options, double tolerance,
+  bool newton_step(Multigrid& multigrid, const SolverOptions& options, double tolerance,
                    const NodeField& forces, NodeField& x, SolveReport& total) const;
   bool search_line(const NodeField& dx, const NodeField& forces, NodeField& x) const;
   void find_floating_nodes();

@@ -13,13 +13,10 @@ Integrator::~Integrator() = default;
 
 SolveReport Integrator::step(const ElasticModel& model, ElasticState& state, double dt, const Vec3& gravity,
                              const HeldNodes& held, const std::vector<PointConstraint>& constraints) {
-  const Precision precision = precision_for(options_.tolerance);
-  workspace_->product.set(model, model.rotations(state.x), precision);
-
   const double inertia = 1.0 / (dt * dt) + options_.rayleigh_mass / dt;
-  LinearSystem system(workspace_->product, inertia * model.mass(), 1.0 + options_.rayleigh_stiffness / dt,
-                      constraints, held.nodes, precision);
-  system.prepare(model);
+  const LinearSystem system(workspace_->multigrid, model, model.rotations(state.x),
+                            {inertia * model.mass(), 1.0 + options_.rayleigh_stiffness / dt, &constraints},
+                            held.nodes, precision_for(options_.tolerance));
 
   NodeField b =
       model.forces(state.x) + state.v * (model.mass() / dt).asDiagonal() + gravity * model.mass().transpose();
@@ -39,7 +36,7 @@ SolveReport Integrator::equilibrate(const ElasticModel& model, NodeField& x, con
                                     const HeldNodes& held, const std::vector<PointConstraint>& constraints,
                                     int max_newton) {
   Equilibrium equilibrium(model, x, gravity, held, constraints);
-  return equilibrium.solve_newton(workspace_->product, options_, x, max_newton);
+  return equilibrium.solve_newton(workspace_->multigrid, options_, x, max_newton);
 }
 
 std::vector<Vec3> reactions(const ElasticModel& model, const NodeField& x, const Vec3& gravity,

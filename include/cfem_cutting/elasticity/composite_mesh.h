@@ -18,6 +18,9 @@ struct CompositeElement {
   std::array<int, 8> nodes{};
 };
 
+/// Where node n of an element lies: 0 or 1 along each axis.
+inline Vec3i corner_bits(int n) { return {n & 1, (n >> 1) & 1, (n >> 2) & 1}; }
+
 /// A material point in an element: x = Σ weight[n] · x_node[n].
 struct Embedding {
   int element = -1;

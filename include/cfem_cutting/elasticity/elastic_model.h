@@ -41,8 +41,11 @@ class ElasticModel {
   /// Rotations of the elements at x (identity for linear kinematics).
   std::vector<Mat3> rotations(const NodeField& x) const;
 
-  /// Stiffness matrix of an element at rest, N/m. Equal elements share one object.
-  const ElementMatrix& stiffness(int element) const;
+  /// Stiffness matrix of an element at rest, N/m.
+  const ElementMatrix& stiffness(int element) const { return *shared_stiffness(element); }
+
+  /// The same as an object that equal elements share and that outlives updates.
+  std::shared_ptr<const ElementMatrix> shared_stiffness(int element) const;
 
   /// Differs between any two states of any models in this process: changes with each update.
   std::uint64_t version() const { return version_; }

@@ -1,0 +1,151 @@
+#include "coarsening.h"
+
+#include <algorithm>
+
+#include "union_find.h"
+
+namespace cfem_cutting {
+namespace {
+
+Vec3i halved(const Vec3i& block) {
+  return block.unaryExpr([](int i) { return i >> 1; });
+}
+
+/// Pairs of elements that have the four nodes of a face in common: element, its neighbour along +axis.
+struct FacePair {
+  int lower, upper, axis;
+};
+
+bool share_face(const ElementSet& set, int lower, int upper, int axis) {
+  for (int n = 0; n < 8; ++n)
+    if (!(n >> axis & 1) && set.nodes[upper][n] != set.nodes[lower][n | (1 << axis)]) return false;
+  return true;
+}
+
+std::vector<FacePair> find_face_pairs(const ElementSet& set) {
+  const NodeCorners at(set);
+  std::vector<FacePair> pairs;
+  for (int e = 0; e < set.size(); ++e) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int node = set.nodes[e][1 << axis];
+      for (int i = at.first[node]; i < at.first[node + 1]; ++i) {
+        const int other = at.corners[i] / 8;
+        const bool beside = at.corners[i] % 8 == 0 && set.block[other] - set.block[e] == Vec3i::Unit(axis);
+        if (beside && share_face(set, e, other, axis)) pairs.push_back({e, other, axis});
+      }
+    }
+  }
+  return pairs;
+}
+
+/// Numbers roots by their first occurrence.
+/// @return the number of sets
+int number_roots(UnionFind& sets, std::vector<int>& number) {
+  std::vector<int> of_root(number.size(), -1);
+  int count = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    int& n = of_root[sets.find(static_cast<int>(i))];
+    if (n < 0) n = count++;
+    number[i] = n;
+  }
+  return count;
+}
+
+std::vector<int> find_parents(const ElementSet& fine, const std::vector<FacePair>& pairs) {
+  UnionFind sets(fine.size());
+  for (const FacePair& pair : pairs)
+    if (halved(fine.block[pair.lower]) == halved(fine.block[pair.upper])) sets.unite(pair.lower, pair.upper);
+  std::vector<int> parent(fine.size());
+  number_roots(sets, parent);
+  return parent;
+}
+
+void unite_nodes(const std::vector<FacePair>& pairs, const std::vector<int>& parent, ElementSet& coarse) {
+  UnionFind sets(8 * coarse.size());
+  for (const FacePair& pair : pairs) {
+    const int a = parent[pair.lower], b = parent[pair.upper];
+    if (a == b) continue;
+    for (int n = 0; n < 8; ++n)
+      if (!(n >> pair.axis & 1)) sets.unite(8 * a + (n | 1 << pair.axis), 8 * b + n);
+  }
+  std::vector<int> number(8 * coarse.size());
+  coarse.node_count = number_roots(sets, number);
+  for (int c = 0; c < coarse.size(); ++c) std::copy_n(number.begin() + 8 * c, 8, coarse.nodes[c].begin());
+}
+
+Interpolation interpolate(const ElementSet& fine, const ElementSet& coarse, const std::vector<int>& parent) {
+  std::vector<int> corner_of_node(fine.node_count, -1);
+  for (int e = fine.size() - 1; e >= 0; --e)
+    for (int n = 0; n < 8; ++n) corner_of_node[fine.nodes[e][n]] = 8 * e + n;
+  Interpolation sums;
+  for (int corner : corner_of_node) {
+    const int e = corner / 8, c = parent[e];
+    const Vec3i offset = fine.block[e] - 2 * coarse.block[c];
+    const Eigen::Matrix<double, 8, 1> weights = corner_weights(offset, corner % 8);
+    for (int m = 0; m < 8; ++m) {
+      if (weights[m] == 0.0) continue;
+      sums.node.push_back(coarse.nodes[c][m]);
+      sums.weight.push_back(static_cast<float>(weights[m]));
+    }
+    sums.first.push_back(static_cast<int>(sums.node.size()));
+  }
+  return sums;
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 8, 1> corner_weights(const Vec3i& offset, int n) {
+  const Vec3 t = 0.5 * (offset + corner_bits(n)).cast<double>();
+  Eigen::Matrix<double, 8, 1> weights;
+  for (int m = 0; m < 8; ++m) {
+    const Vec3i bits = corner_bits(m);
+    weights[m] = 1.0;
+    for (int axis = 0; axis < 3; ++axis) weights[m] *= bits[axis] ? t[axis] : 1.0 - t[axis];
+  }
+  return weights;
+}
+
+Coarsening::Coarsening(const ElementSet& fine) {
+  const std::vector<FacePair> pairs = find_face_pairs(fine);
+  parent = find_parents(fine, pairs);
+  const int count = parent.empty() ? 0 : *std::max_element(parent.begin(), parent.end()) + 1;
+  coarse.block.resize(count);
+  coarse.nodes.resize(count);
+  for (int e = 0; e < fine.size(); ++e) coarse.block[parent[e]] = halved(fine.block[e]);
+  unite_nodes(pairs, parent, coarse);
+  interpolation = interpolate(fine, coarse, parent);
+}
+
+Interpolation Interpolation::transposed(int columns) const {
+  Interpolation t;
+  t.first.assign(columns + 1, 0);
+  for (int n : node) ++t.first[n + 1];
+  for (int n = 0; n < columns; ++n) t.first[n + 1] += t.first[n];
+  t.node.resize(node.size());
+  t.weight.resize(node.size());
+  std::vector<int> next(t.first.begin(), t.first.end() - 1);
+  for (int row = 0; row < rows(); ++row) {
+    for (int i = first[row]; i < first[row + 1]; ++i) {
+      const int at = next[node[i]]++;
+      t.node[at] = row;
+      t.weight[at] = weight[i];
+    }
+  }
+  return t;
+}
+
+void Interpolation::apply(const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const {
+  y.resize(3, rows());
+  for (int row = 0; row < rows(); ++row) {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    for (int i = first[row]; i < first[row + 1]; ++i) sum += weight[i] * x.col(node[i]);
+    y.col(row) = sum;
+  }
+}
+
+void Interpolation::add(const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const {
+  for (int row = 0; row < rows(); ++row)
+    for (int i = first[row]; i < first[row + 1]; ++i) y.col(row) += weight[i] * x.col(node[i]);
+}
+
+}  // namespace cfem_cutting

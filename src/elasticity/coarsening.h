@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "element_set.h"
+
+namespace cfem_cutting {
+
+/// Weighted sums of values at other nodes: row i of a sparse matrix.
+struct Interpolation {
+  std::vector<int> first{0};  ///< (|rows| + 1)
+  std::vector<int> node;
+  std::vector<float> weight;
+
+  int rows() const { return static_cast<int>(first.size()) - 1; }
+  Interpolation transposed(int columns) const;
+
+  /// y_i = Σ w x, or y_i += Σ w x
+  void apply(const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const;
+  void add(const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const;
+};
+
+/// The next coarser level: blocks of twice the edge, by the same rule as the composite elements. Elements that
+/// lie in one coarse block and are joined by faces are one coarse element; so the two sides of a cut stay
+/// apart.
+struct Coarsening {
+  explicit Coarsening(const ElementSet& fine);
+
+  ElementSet coarse;            ///< without stiffness
+  std::vector<int> parent;      ///< coarse element of each fine one
+  Interpolation interpolation;  ///< trilinear, from coarse nodes to fine nodes
+};
+
+/// Weights of a coarse element's eight nodes at corner n of the fine element at `offset` (0 or 1 an axis) in
+/// it.
+Eigen::Matrix<double, 8, 1> corner_weights(const Vec3i& offset, int n);
+
+}  // namespace cfem_cutting

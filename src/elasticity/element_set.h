@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "cfem_cutting/elasticity/elastic_model.h"
+
+namespace cfem_cutting {
+
+using ElementNodes = std::array<int, 8>;
+using MatrixPointer = std::shared_ptr<const ElementMatrix>;
+
+/// Hexahedra on a block lattice, each with its nodes and its stiffness: a level of the multigrid hierarchy.
+struct ElementSet {
+  std::vector<Vec3i> block;
+  std::vector<ElementNodes> nodes;
+  std::vector<MatrixPointer> stiffness;  ///< N/m; equal ones are one object
+  int node_count = 0;
+  int size() const { return static_cast<int>(nodes.size()); }
+};
+
+/// For each node the elements that meet there, as 8 e + corner, ascending.
+struct NodeCorners {
+  explicit NodeCorners(const ElementSet& set);
+  std::vector<int> first;   ///< (|nodes| + 1) into `corners`
+  std::vector<int> corners;
+};
+
+}  // namespace cfem_cutting

@@ -1,0 +1,220 @@
+#include "level_system.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace cfem_cutting {
+namespace {
+
+/// The smoother damps the eigenvalues from a part of the largest one to that, by a Chebyshev polynomial of
+/// this degree.
+constexpr int kDegree = 2;
+constexpr double kSmoothedPart = 0.2;
+constexpr double kSafety = 1.1;
+constexpr int kPowerIterations = 10;
+
+/// Values without pattern, the same every time.
+SingleField noise(int columns) {
+  SingleField field(3, columns);
+  std::uint32_t state = 1;
+  for (Eigen::Index i = 0; i < field.size(); ++i) {
+    state = state * 1664525u + 1013904223u;
+    field.data()[i] = static_cast<float>(state >> 8) / (1 << 23) - 1.0f;
+  }
+  return field;
+}
+
+Mat3 inverse_or_zero(const Mat3& block) {
+  const double size = block.trace();
+  if (!(size > 0.0) || !(block.determinant() > 1e-15 * size * size * size)) return Mat3::Zero();
+  return block.inverse();
+}
+
+}  // namespace
+
+void LevelSystem::arrange(ElementSet elements, std::vector<char> held) {
+  held_ = std::move(held);
+  node_diagonal_ = Eigen::VectorXf::Zero(elements.node_count);
+  stiffness_factor_ = 1.0f;
+  constraints_.clear();
+  product_.arrange(std::move(elements));
+  diagonal_at_rest_ = product_.diagonal_at_rest();
+  invert_diagonal();
+  largest_ = kSafety * largest_eigenvalue();
+}
+
+void LevelSystem::set(std::vector<Mat3> rotations, Eigen::VectorXf node_diagonal, float stiffness_factor,
+                      std::vector<ConstraintRow> constraints) {
+  product_.rotate(std::move(rotations));
+  node_diagonal_ = std::move(node_diagonal);
+  stiffness_factor_ = stiffness_factor;
+  constraints_ = std::move(constraints);
+  invert_diagonal();
+  prepare_constraints();
+}
+
+/// Power iteration.
+double LevelSystem::largest_eigenvalue() const {
+  SingleField x = noise(static_cast<int>(held_.size())), y;
+  double eigenvalue = 1.0;
+  for (int i = 0; i < kPowerIterations; ++i) {
+    x /= std::max(x.norm(), 1e-30f);
+    apply(x, y);
+    scale(y, 1.0f, x);
+    eigenvalue = std::max<double>(x.norm(), 1e-3);
+  }
+  return eigenvalue;
+}
+
+float LevelSystem::mean_stiffness() const {
+  double trace = 0.0;
+  for (std::size_t n = 0; n < diagonal_at_rest_.size(); ++n)
+    trace += stiffness_factor_ * diagonal_at_rest_[n].trace() + 3.0 * node_diagonal_[n];
+  return static_cast<float>(trace / (3.0 * diagonal_at_rest_.size()));
+}
+
+/// A node's block turns with the first element there: a preconditioner needs no more.
+void LevelSystem::invert_diagonal() {
+  inverse_.assign(held_.size(), Eigen::Matrix3f::Zero());
+  for (std::size_t n = 0; n < held_.size(); ++n) {
+    if (held_[n]) continue;
+    const Mat3 block = stiffness_factor_ * diagonal_at_rest_[n] + node_diagonal_[n] * Mat3::Identity();
+    const Mat3& R = product_.rotation_at(static_cast<int>(n));
+    inverse_[n] = (R * inverse_or_zero(block) * R.transpose()).cast<float>();
+  }
+}
+
+void LevelSystem::prepare_constraints() {
+  const int count = static_cast<int>(constraints_.size());
+  if (count == 0) return;
+  Eigen::MatrixXf compliance(count, count);
+  SingleField moved = SingleField::Zero(3, static_cast<Eigen::Index>(held_.size()));
+  const auto& nodes = product_.elements().nodes;
+  for (int i = 0; i < count; ++i) {
+    const ConstraintRow& row = constraints_[i];
+    for (int n = 0; n < 8; ++n) {
+      const int node = nodes[row.element][n];
+      moved.col(node) += row.weights[n] * inverse_[node] * row.direction;
+    }
+    for (int j = 0; j < count; ++j) {
+      const ConstraintRow& other = constraints_[j];
+      Eigen::Vector3f at = Eigen::Vector3f::Zero();
+      for (int n = 0; n < 8; ++n) at += other.weights[n] * moved.col(nodes[other.element][n]);
+      compliance(j, i) = other.direction.dot(at);
+    }
+    compliance(i, i) += 1.0f / row.stiffness;
+    for (int node : nodes[row.element]) moved.col(node).setZero();
+  }
+  compliance_.compute(compliance);
+}
+
+void LevelSystem::apply(const SingleField& p, SingleField& y) const {
+  product_.apply(p, y);
+  for (Eigen::Index n = 0; n < p.cols(); ++n)
+    y.col(n) = stiffness_factor_ * y.col(n) + node_diagonal_[n] * p.col(n);
+  add_constraints(p, y);
+}
+
+void LevelSystem::add_constraints(const SingleField& p, SingleField& y) const {
+  for (const ConstraintRow& row : constraints_) {
+    const ElementNodes& nodes = product_.elements().nodes[row.element];
+    Eigen::Vector3f at = Eigen::Vector3f::Zero();
+    for (int n = 0; n < 8; ++n) at += row.weights[n] * p.col(nodes[n]);
+    const Eigen::Vector3f force = row.stiffness * row.direction.dot(at) * row.direction;
+    for (int n = 0; n < 8; ++n) y.col(nodes[n]) += row.weights[n] * force;
+  }
+}
+
+/// z = factor M⁻¹ r with M the nodes' blocks and the constraints, which are stiff and few (Woodbury's formula).
+void LevelSystem::scale(const SingleField& r, float factor, SingleField& z) const {
+  z.resize(3, r.cols());
+  for (Eigen::Index n = 0; n < r.cols(); ++n) z.col(n).noalias() = factor * (inverse_[n] * r.col(n));
+  if (constraints_.empty()) return;
+  const auto& nodes = product_.elements().nodes;
+  Eigen::VectorXf along(constraints_.size());
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const ConstraintRow& row = constraints_[i];
+    Eigen::Vector3f at = Eigen::Vector3f::Zero();
+    for (int n = 0; n < 8; ++n) at += row.weights[n] * z.col(nodes[row.element][n]);
+    along[i] = row.direction.dot(at);
+  }
+  along = compliance_.solve(along).eval();
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const ConstraintRow& row = constraints_[i];
+    for (int n = 0; n < 8; ++n) {
+      const int node = nodes[row.element][n];
+      z.col(node) -= row.weights[n] * along[i] * (inverse_[node] * row.direction);
+    }
+  }
+}
+
+/// Chebyshev's iteration (Saad 2003, algorithm 12.1) from x with residual r; r goes along to the end if wanted.
+void LevelSystem::polish(SingleField& x, SingleField& r, bool residual_wanted) const {
+  const float centre = static_cast<float>(0.5 * largest_ * (1.0 + kSmoothedPart));
+  const float half_width = static_cast<float>(0.5 * largest_ * (1.0 - kSmoothedPart));
+  const float sigma = centre / half_width;
+  float rho = 1.0f / sigma;
+  scale(r, 1.0f / centre, step_);
+  for (int k = 1;; ++k) {
+    x += step_;
+    if (k == kDegree && !residual_wanted) return;
+    apply(step_, change_);
+    r -= change_;
+    if (k == kDegree) return;
+    const float next = 1.0f / (2.0f * sigma - rho);
+    scale(r, 2.0f * next / half_width, scaled_);
+    step_ = next * rho * step_ + scaled_;
+    rho = next;
+  }
+}
+
+void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const {
+  x = SingleField::Zero(3, b.cols());
+  r = b;
+  polish(x, r, true);
+}
+
+void LevelSystem::smooth(const SingleField& b, SingleField& x) const {
+  SingleField r;
+  apply(x, r);
+  r = b - r;
+  polish(x, r, false);
+}
+
+void LevelSystem::factorise() {
+  const Eigen::Index size = 3 * static_cast<Eigen::Index>(held_.size());
+  Eigen::MatrixXf A = Eigen::MatrixXf::Zero(size, size);
+  const ElementSet& elements = product_.elements();
+  for (int e = 0; e < elements.size(); ++e) {
+    const Mat3& R = product_.rotations()[e];
+    for (int n = 0; n < 8; ++n)
+      for (int m = 0; m < 8; ++m)
+        A.block<3, 3>(3 * elements.nodes[e][n], 3 * elements.nodes[e][m]) +=
+            (stiffness_factor_ * R * elements.stiffness[e]->block<3, 3>(3 * n, 3 * m) * R.transpose()).cast<float>();
+  }
+  for (const ConstraintRow& row : constraints_)
+    for (int n = 0; n < 8; ++n)
+      for (int m = 0; m < 8; ++m)
+        A.block<3, 3>(3 * elements.nodes[row.element][n], 3 * elements.nodes[row.element][m]) +=
+            row.stiffness * row.weights[n] * row.weights[m] * row.direction * row.direction.transpose();
+  const float smallest = 1e-6f * A.diagonal().maxCoeff();  // against rounding in single precision
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto node = static_cast<std::size_t>(i / 3);
+    A(i, i) += node_diagonal_[node] + smallest;
+    if (!held_[node]) continue;
+    A.row(i).setZero();
+    A.col(i).setZero();
+    A(i, i) = 1.0f;
+  }
+  factors_.compute(A);
+}
+
+void LevelSystem::solve(const SingleField& b, SingleField& x) const {
+  x = b;
+  for (std::size_t n = 0; n < held_.size(); ++n)
+    if (held_[n]) x.col(n).setZero();
+  Eigen::Map<Eigen::VectorXf> flat(x.data(), x.size());
+  factors_.solveInPlace(flat);
+}
+
+}  // namespace cfem_cutting

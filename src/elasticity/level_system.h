@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <vector>
+
+#include "element_product.h"
+
+namespace cfem_cutting {
+
+/// A constraint's row on one level: k (w ⊗ d)(w ⊗ d)ᵀ with the weights w of an element's nodes.
+struct ConstraintRow {
+  int element;
+  Eigen::Matrix<float, 8, 1> weights;
+  Eigen::Vector3f direction;  ///< unit
+  float stiffness;            ///< N/m
+};
+
+/// The system of one level in single precision, A = D + s Σ R K Rᵀ + Σ k (w ⊗ d)(w ⊗ d)ᵀ, with its smoother.
+class LevelSystem {
+ public:
+  explicit LevelSystem(ThreadPool& pool) : product_(pool) {}
+
+  /// Takes over a new mesh.
+  /// @param held per node: zero displacement
+  void arrange(ElementSet elements, std::vector<char> held);
+
+  /// Takes over what changes from solve to solve.
+  /// @param node_diagonal N/m, per node
+  /// @param stiffness_factor s
+  void set(std::vector<Mat3> rotations, Eigen::VectorXf node_diagonal, float stiffness_factor,
+           std::vector<ConstraintRow> constraints);
+
+  const ElementProduct& product() const { return product_; }
+  const std::vector<char>& held() const { return held_; }
+  const Eigen::VectorXf& node_diagonal() const { return node_diagonal_; }
+  const std::vector<ConstraintRow>& constraints() const { return constraints_; }
+  float mean_stiffness() const;  ///< N/m, of a node's diagonal
+
+  /// y = A p; rows of held nodes are without meaning.
+  void apply(const SingleField& p, SingleField& y) const;
+
+  /// x from zero towards A⁻¹ b, and r = b − A x.
+  void smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const;
+
+  /// x on towards A⁻¹ b.
+  void smooth(const SingleField& b, SingleField& x) const;
+
+  /// x = A⁻¹ b by Cholesky's factors, which `factorise` makes.
+  void factorise();
+  void solve(const SingleField& b, SingleField& x) const;
+
+ private:
+  void scale(const SingleField& r, float factor, SingleField& z) const;
+  void add_constraints(const SingleField& p, SingleField& y) const;
+  void prepare_constraints();
+  void invert_diagonal();
+  void polish(SingleField& x, SingleField& r, bool residual_wanted) const;
+  double largest_eigenvalue() const;
+
+  ElementProduct product_;
+  std::vector<char> held_;
+  std::vector<Mat3> diagonal_at_rest_;  // N/m
+  double largest_ = 1.0;                // eigenvalue of (diag Σ K)⁻¹ Σ K
+  Eigen::VectorXf node_diagonal_;
+  float stiffness_factor_ = 1.0f;
+  std::vector<ConstraintRow> constraints_;
+  std::vector<Eigen::Matrix3f> inverse_;  // m/N; zero for held nodes
+  Eigen::LDLT<Eigen::MatrixXf> compliance_;  // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
+  Eigen::LLT<Eigen::MatrixXf> factors_;
+  mutable SingleField step_, change_, scaled_;  // scratch
+};
+
+}  // namespace cfem_cutting

@@ -1,0 +1,131 @@
+#include "multigrid.h"
+
+#include "rotation.h"
+
+namespace cfem_cutting {
+namespace {
+
+constexpr int kCoarsestNodes = 80;  // few enough for a dense solve
+constexpr std::size_t kMostLevels = 12;
+
+ElementSet elements_of(const ElasticModel& model) {
+  ElementSet set;
+  const auto& elements = model.mesh().elements();
+  set.node_count = model.mesh().node_count();
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    set.block.push_back(elements[e].block);
+    set.nodes.push_back(elements[e].nodes);
+    set.stiffness.push_back(model.shared_stiffness(static_cast<int>(e)));
+  }
+  return set;
+}
+
+std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constraints) {
+  std::vector<ConstraintRow> rows;
+  for (const PointConstraint& c : constraints) {
+    if (!(c.stiffness > 0.0)) continue;
+    ConstraintRow row{c.at.element, {}, c.direction.cast<float>(), static_cast<float>(c.stiffness)};
+    for (int n = 0; n < 8; ++n) row.weights[n] = static_cast<float>(c.at.weights[n]);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Held rows interpolate nothing.
+Interpolation without_held(const Interpolation& all, const std::vector<char>& held) {
+  Interpolation free;
+  for (int row = 0; row < all.rows(); ++row) {
+    for (int i = all.first[row]; i < all.first[row + 1] && !held[row]; ++i) {
+      free.node.push_back(all.node[i]);
+      free.weight.push_back(all.weight[i]);
+    }
+    free.first.push_back(static_cast<int>(free.node.size()));
+  }
+  return free;
+}
+
+}  // namespace
+
+void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held) {
+  if (version_ == model.version() && held_ == held) return;
+  version_ = model.version();
+  held_ = held;
+  std::vector<char> flags(model.mesh().node_count(), 0);
+  for (int node : held) flags[node] = 1;
+  levels_.clear();
+  add_level(elements_of(model), std::move(flags));
+  while (levels_.size() < kMostLevels && levels_.back().system.product().elements().node_count > kCoarsestNodes) {
+    Level& fine = levels_.back();
+    const ElementSet& elements = fine.system.product().elements();
+    Coarsening coarsening(elements);
+    if (coarsening.coarse.size() == elements.size()) break;
+    if (galerkin_.size() < levels_.size()) galerkin_.emplace_back();
+    coarsening.coarse.stiffness =
+        galerkin_[levels_.size() - 1].assemble(elements, fine.system.held(), coarsening);
+    fine.parent = std::move(coarsening.parent);
+    fine.interpolation = without_held(coarsening.interpolation, fine.system.held());
+    fine.restriction = fine.interpolation.transposed(coarsening.coarse.node_count);
+    std::vector<char> none(coarsening.coarse.node_count, 0);
+    add_level(std::move(coarsening.coarse), std::move(none));
+  }
+}
+
+void Multigrid::add_level(ElementSet elements, std::vector<char> held) {
+  levels_.emplace_back(pool_).system.arrange(std::move(elements), std::move(held));
+}
+
+void Multigrid::set(std::vector<Mat3> rotations, const SystemValues& values) {
+  const auto factor = static_cast<float>(values.stiffness_factor);
+  levels_.front().system.set(std::move(rotations), values.node_diagonal.cast<float>(), factor,
+                             rows_of(*values.constraints));
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    const Level& fine = levels_[l - 1];
+    LevelSystem& coarse = levels_[l].system;
+    const ElementSet& elements = coarse.product().elements();
+    Eigen::VectorXf diagonal = Eigen::VectorXf::Zero(elements.node_count);
+    for (int n = 0; n < fine.interpolation.rows(); ++n)
+      for (int i = fine.interpolation.first[n]; i < fine.interpolation.first[n + 1]; ++i)
+        diagonal[fine.interpolation.node[i]] +=
+            fine.interpolation.weight[i] * fine.system.node_diagonal()[n];
+    coarse.set(coarse_rotations(fine, elements.size()), std::move(diagonal), factor,
+               coarse_constraints(fine, elements));
+  }
+  levels_.back().system.factorise();
+}
+
+/// The rotation nearest to the sum of the parts'.
+std::vector<Mat3> Multigrid::coarse_rotations(const Level& fine, int count) const {
+  std::vector<Mat3> sums(count, Mat3::Zero());
+  const std::vector<Mat3>& rotations = fine.system.product().rotations();
+  for (std::size_t e = 0; e < rotations.size(); ++e) sums[fine.parent[e]] += rotations[e];
+  for (Mat3& sum : sums) sum = polar_rotation(sum / std::max(sum.norm(), 1e-6) * std::sqrt(3.0)).R;
+  return sums;
+}
+
+std::vector<ConstraintRow> Multigrid::coarse_constraints(const Level& fine, const ElementSet& coarse) const {
+  std::vector<ConstraintRow> rows = fine.system.constraints();
+  for (ConstraintRow& row : rows) {
+    const ElementNodes& from = fine.system.product().elements().nodes[row.element];
+    row.element = fine.parent[row.element];
+    Eigen::Matrix<float, 8, 1> weights = Eigen::Matrix<float, 8, 1>::Zero();
+    for (int n = 0; n < 8; ++n)
+      for (int i = fine.interpolation.first[from[n]]; i < fine.interpolation.first[from[n] + 1]; ++i)
+        for (int m = 0; m < 8; ++m)
+          if (coarse.nodes[row.element][m] == fine.interpolation.node[i])
+            weights[m] += row.weights[n] * fine.interpolation.weight[i];
+    row.weights = weights;
+  }
+  return rows;
+}
+
+void Multigrid::cycle(std::size_t l, const SingleField& b, SingleField& x) const {
+  const Level& level = levels_[l];
+  if (l + 1 == levels_.size()) return level.system.solve(b, x);
+  level.system.smooth_from_zero(b, x, level.residual);
+  level.restriction.apply(level.residual, level.coarse_load);
+  cycle(l + 1, level.coarse_load, level.coarse_x);
+  level.interpolation.add(level.coarse_x, x);
+  level.system.smooth(b, x);
+}
+
+}  // namespace cfem_cutting

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "cfem_cutting/elasticity/integrator.h"
+#include "coarsening.h"
+#include "galerkin.h"
+#include "level_system.h"
+
+namespace cfem_cutting {
+
+/// What changes in a system from solve to solve.
+struct SystemValues {
+  Eigen::VectorXd node_diagonal;  ///< N/m, added to each axis of a node
+  double stiffness_factor = 1.0;
+  const std::vector<PointConstraint>* constraints = nullptr;
+};
+
+/// A symmetric V-cycle over the composite hierarchy (Dick, Georgii and Westermann 2011): a preconditioner for
+/// A = D + s Σ R K Rᵀ + Σ k (w ⊗ d)(w ⊗ d)ᵀ. Coarse elements have the rest matrices of what is in them (Galerkin)
+/// and the mean of its rotations; the coarsest level is solved directly.
+class Multigrid {
+ public:
+  explicit Multigrid(ThreadPool& pool) : pool_(pool) {}
+
+  /// Takes over a model's mesh and which nodes are held, unless it has them already.
+  void arrange(const ElasticModel& model, const std::vector<int>& held);
+
+  /// Takes over rotations and values.
+  void set(std::vector<Mat3> rotations, const SystemValues& values);
+
+  const LevelSystem& finest() const { return levels_.front().system; }
+
+  /// z = one V-cycle for A z = r
+  void precondition(const SingleField& r, SingleField& z) const { cycle(0, r, z); }
+
+ private:
+  struct Level {
+    explicit Level(ThreadPool& pool) : system(pool) {}
+    LevelSystem system;
+    std::vector<int> parent;  // coarse element of each element
+    Interpolation interpolation, restriction;
+    mutable SingleField residual, coarse_load, coarse_x;
+  };
+  void add_level(ElementSet elements, std::vector<char> held);
+  void cycle(std::size_t level, const SingleField& b, SingleField& x) const;
+  std::vector<Mat3> coarse_rotations(const Level& fine, int count) const;
+  std::vector<ConstraintRow> coarse_constraints(const Level& fine, const ElementSet& coarse) const;
+
+  ThreadPool& pool_;
+  std::uint64_t version_ = 0;
+  std::vector<int> held_;
+  std::deque<Level> levels_;
+  std::vector<GalerkinMatrices> galerkin_;  // kept from mesh to mesh
+};
+
+}  // namespace cfem_cutting
