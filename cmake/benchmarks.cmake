@@ -1,4 +1,5 @@
-# Benchmarks (Google Benchmark): build with -DCFEM_CUTTING_BENCHMARKS=ON, run .build/benchmark_<name>.
+# Benchmarks (Google Benchmark): build with -DCFEM_CUTTING_BENCHMARKS=ON, run lib/cfem_cutting/benchmark_<name>
+# of the build's devel folder (by itself: of the build).
 if(NOT CFEM_CUTTING_BENCHMARKS)
   return()
 endif()

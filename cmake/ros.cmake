@@ -37,17 +37,13 @@ if(NOT BUILD_TESTING)
   return()
 endif()
 
-# Conversions and the like, without a master.
+# Needs a master and the parameters of parameters.test.
 find_package(GTest REQUIRED)
-include(GoogleTest)
-file(GLOB ros_test_sources CONFIGURE_DEPENDS test/ros/*_test.cpp)
-if(ros_test_sources)
-  add_executable(test_ros ${ros_test_sources})
-  target_include_directories(test_ros PRIVATE test)
-  target_compile_definitions(test_ros PRIVATE CFEM_CUTTING_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
-  target_link_libraries(test_ros PRIVATE cfem_cutting_ros cfem_cutting_options GTest::gtest_main)
-  gtest_discover_tests(test_ros TEST_PREFIX ros. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
-endif()
+add_executable(test_parameters test/rostest/parameters_test.cpp)
+target_compile_definitions(test_parameters PRIVATE CFEM_CUTTING_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
+target_link_libraries(test_parameters PRIVATE cfem_cutting_ros cfem_cutting_options GTest::gtest)
+set_target_properties(test_parameters PROPERTIES
+  RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
 
 # Tests of the running node: each *.test brings its own master.
 file(GLOB rostests CONFIGURE_DEPENDS test/rostest/*.test)

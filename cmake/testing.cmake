@@ -39,6 +39,11 @@ add_test(NAME analytic.calculix COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/test/analytic/compare_with_calculix.py $<TARGET_FILE:calculix_export>
   ${CMAKE_BINARY_DIR}/calculix ${verification_dir}/calculix.tsv)
 
+# The replay program from its command line; the liver needs scripts/fetch_data.
+add_test(NAME replay COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/test/replay/replay_test.py
+  $<TARGET_FILE:replay> ${CMAKE_CURRENT_SOURCE_DIR} $<$<BOOL:${CFEM_CUTTING_ROS}>:--bags>)
+set_tests_properties(replay PROPERTIES TIMEOUT 600)
+
 # The installed core serves a project without ROS.
 add_test(NAME install COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_BINARY_DIR}
   -P ${CMAKE_CURRENT_SOURCE_DIR}/test/install/install_test.cmake)

@@ -11,6 +11,7 @@ namespace cfem_cutting {
 namespace {
 
 constexpr double kOnBoundary = 1e-9;  // of a block or a voxel
+constexpr double kOverlap = 0.1;      // of a voxel
 
 /// Elements with a linked voxel. (A hosted voxel alone is reached through its host's element.)
 std::vector<int> linked_elements(const VoxelVolume& volume, const CompositeMesh& mesh) {
@@ -88,9 +89,15 @@ Vec3 InverseMap::forward(const MaterialPoint& point) const {
 
 std::optional<MaterialPoint> InverseMap::operator()(const Vec3& x) const {
   std::optional<MaterialPoint> inside;
+  const double apart = kOverlap * volume_.lattice().spacing.minCoeff();
   hash_->elements.visit_at(x, [&](int element) {
-    inside = inside_element(element, x);
-    return inside.has_value();
+    const std::optional<MaterialPoint> here = inside_element(element, x);
+    if (!inside) {
+      inside = here;
+    } else if (here && (here->X - inside->X).norm() > apart) {
+      inside->inside = false;
+    }
+    return inside && !inside->inside;
   });
   return inside ? inside : beside_tissue(x);
 }

@@ -44,7 +44,18 @@ void Simulation::State::meet(const FrontMotion& moved) {
     const Vec3 x_ref = model.mesh().embed(p.voxel, p.X).apply(reference);
     return forward.dot(project(tracker.front().points, x_ref).point - x_ref) < -retreat;
   });
-  if (contact.empty() && tracker.inside().empty()) leave_tissue();
+  if (is_out()) come_out();
+}
+
+/// Beyond the tissue, or back from it. What the front has gone through is severed now, the rest waits no more.
+void Simulation::State::come_out() {
+  unit.drop_if([&](const Candidate& c) {
+    const int voxel = c.crossing.link.voxel;
+    const Vec3 x_ref = model.mesh().embed(voxel, volume.centre(voxel)).apply(reference);
+    return push().dot(project(tracker.front().points, x_ref).point - x_ref) <= 0.0;
+  });
+  unit.leave_behind();
+  if (unit.candidates().empty()) trail.drop();
 }
 
 void Simulation::State::leave_tissue() {
@@ -66,7 +77,7 @@ Fracture Simulation::State::judge() {
   unit.largest_offset = contact_offset(offsets);
   Fracture fracture = decide(config.fracture, unit.candidates(), unit.largest_offset, block);
   // What still springs back from the last fracture is not loaded by the blade.
-  const bool loaded = immediate() || contact.pushes();
+  const bool loaded = immediate() || contact.pushes() || is_out();
   fracture.happens = fracture.happens && loaded && advances(fracture, offsets);
   return fracture;
 }

@@ -1,6 +1,7 @@
 #include "cfem_cutting/simulation/cutting_unit.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "cfem_cutting/geometry/polyline.h"
 
@@ -47,12 +48,12 @@ void CuttingUnit::measure(const VoxelVolume& volume, const OffsetField& offsets,
     c.passed_by = passed ? way.norm() : 0.0;
     c.front_distance = passed ? 0.0 : way.norm();
   }
-  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
-                                   [&](const Candidate& c) { return c.front_distance > 2.0 * block; }),
-                    candidates_.end());
+  drop_if([&](const Candidate& c) { return c.front_distance > 2.0 * block; });
 }
 
-void CuttingUnit::drop() { candidates_.clear(); }
+void CuttingUnit::leave_behind() {
+  for (Candidate& c : candidates_) c.passed_by = std::numeric_limits<double>::infinity();
+}
 
 void CuttingUnit::begin_next(const std::vector<Candidate>& waiting) {
   ++number;

@@ -28,6 +28,8 @@ struct Simulation::State {
   // Parts of the stages.
   void meet(const FrontMotion& motion);
   void leave_tissue();
+  void come_out();
+  bool is_out() const { return contact.empty() && tracker.inside().empty(); }
   bool advances(const Fracture& fracture, const OffsetField& offsets) const;
   void rebuild(const Fracture& fracture);
   void advance_cut_end();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "cfem_cutting/cutting/fracture.h"
@@ -26,7 +27,16 @@ class CuttingUnit {
                const Vec3& push, double block);
 
   /// The contact ended: nothing waits any more.
-  void drop();
+  void drop() { candidates_.clear(); }
+
+  /// Drops the links for which `goes` is true.
+  template <typename Predicate>
+  void drop_if(Predicate goes) {
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), goes), candidates_.end());
+  }
+
+  /// The front has passed all links that wait for good.
+  void leave_behind();
 
   /// The next unit begins; these candidates wait on.
   void begin_next(const std::vector<Candidate>& waiting);

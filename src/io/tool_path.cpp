@@ -1,4 +1,4 @@
-#include "cfem_cutting/ros/tool_path.h"
+#include "cfem_cutting/io/tool_path.h"
 
 #include <algorithm>
 

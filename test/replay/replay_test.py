@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+"""The replay program from its command line: cuts of boxes, liver and bunny, and what it refuses.
+
+usage: replay_test.py REPLAY PACKAGE [--bags]   (--bags: it was built with ROS and reads bags)
+"""
+
+import csv
+import filecmp
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+REPLAY, PACKAGE = sys.argv[1:3]
+WITH_BAGS = "--bags" in sys.argv
+BOX = os.path.join(PACKAGE, "config", "gelatine_box.yaml")
+OPEN_MESH = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n"
+needs_bags = unittest.skipUnless(WITH_BAGS, "built without ROS")
+
+
+def bag(name):
+    return os.path.join(PACKAGE, "test", "bags", name + ".bag")
+
+
+def write_stroke(path, bottom, seconds=3.0, rate=50):
+    """A horizontal edge along x, wider than the box, pressed straight down from above it to a height (m)."""
+    count = int(seconds * rate)
+    with open(path, "w") as file:
+        file.write("t,x,y,z,qx,qy,qz,qw\n")
+        for i in range(count + 1):
+            file.write("%.9g,-0.01,0.0513,%.9g,0,0,0,1\n" % (i / rate, 0.053 + (bottom - 0.053) * i / count))
+
+
+class ReplayTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def start(self, out, *arguments, config=BOX):
+        return subprocess.run([REPLAY, "--config", config, "--out", self.path(out), *arguments],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=500)
+
+    def replay(self, out, *arguments, config=BOX):
+        done = self.start(out, *arguments, config=config)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(os.path.join(self.path(out), "summary.json")) as file:
+            return json.load(file)
+
+    def rows(self, out, table):
+        with open(os.path.join(self.path(out), table)) as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def stroke(self, bottom):
+        write_stroke(self.path("poses.csv"), bottom)
+        return ["--poses", self.path("poses.csv"), "--set", "blade.edge=[[0,0,0],[0.12,0,0]]"]
+
+
+class Cuts(ReplayTest):
+    def test_through_cut_and_stopped_cut_on_each_level(self):
+        for level in (0, 1, 2):
+            options = ["--set", "tissue.composite_level=%d" % level, "--set", "tissue.voxel_size=0.005"]
+            through = self.replay("through", *self.stroke(-0.008), *options)
+            self.assertEqual(through["pieces"], 2, level)
+            self.assertAlmostEqual(sum(through["piece_volumes_m3"]), 0.1 * 0.1 * 0.05, delta=1e-15)
+            self.assertAlmostEqual(through["cut_area_m2"], 0.1 * 0.05, delta=0.02 * 0.1 * 0.05)
+            self.assertTrue(through["surface"]["closed"] and through["surface"]["manifold"])
+            self.assertEqual(self.replay("stopped", *self.stroke(0.010), *options)["pieces"], 1, level)
+
+    def test_immediate_mode_fractures_in_every_step_that_meets_links(self):
+        self.replay("out", *self.stroke(0.01), "--set", "fracture.mode=immediate")
+        steps, severed = self.rows("out", "steps.csv"), 0.0
+        self.assertGreater(steps[-1]["links_severed"], 0)
+        for step in steps:
+            self.assertEqual(step["candidates"], 0)
+            self.assertEqual(step["phase"] == 2, step["links_severed"] > severed)
+            severed = step["links_severed"]
+
+    def test_delayed_mode_is_a_saw(self):
+        # d0 = 3 mm on voxels of 4 mm, as shipped: no unit is shorter than d0 but the last ones.
+        summary = self.replay("out", *self.stroke(0.01))
+        events, steps = self.rows("out", "events.csv"), self.rows("out", "steps.csv")
+        self.assertGreaterEqual(len(events), 3)
+        self.assertLess(len(events), 0.053 / 0.003)
+        for event in events:
+            after = [s["fz"] for s in steps if event["t"] < s["t"] < event["t"] + 0.05]
+            self.assertGreater(event["peak_force"], 2.0 * min(abs(f) for f in after))
+        self.assertGreater(summary["blade_work_j"], summary["fracture_work_j"])
+
+    @needs_bags
+    def test_liver_and_bunny(self):
+        for config, name in (("liver", "liver_incision"), ("bunny", "bunny_cut")):
+            file = os.path.join(PACKAGE, "config", config + ".yaml")
+            summary = self.replay(config, "--bag", bag(name), config=file)
+            self.assertGreaterEqual(summary["fracture_events"], 3, config)
+            self.assertGreater(summary["links_severed"], 10, config)
+            self.assertTrue(summary["surface"]["closed"] and summary["surface"]["manifold"], config)
+
+    @needs_bags
+    def test_same_bag_gives_identical_files_on_any_number_of_threads(self):
+        outs = ["first", "second", "third"]
+        for out, threads in zip(outs, (1, 1, 2)):
+            self.replay(out, "--bag", bag("straight_slice"), "--set", "solver.threads=%d" % threads)
+        names = [n for n in os.listdir(self.path("first")) if not n.startswith("timing")]
+        self.assertGreater(len(names), 6)
+        for out in outs[1:]:
+            _, differing, missing = filecmp.cmpfiles(self.path("first"), self.path(out), names, shallow=False)
+            self.assertEqual((differing, missing), ([], []))
+
+
+class Refusals(ReplayTest):
+    def refuse(self, words, *arguments, config=BOX):
+        done = self.start("refused", *arguments, config=config)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+        self.assertFalse(os.path.exists(self.path("refused")))
+
+    def refuse_setting(self, words, setting):
+        self.refuse(words, "--duration", "0.1", "--set", setting)
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+        return self.path(name)
+
+    def test_files(self):
+        self.refuse(["none.yaml"], "--duration", "1", config=self.path("none.yaml"))
+        self.refuse(["none.csv"], "--poses", self.path("none.csv"))
+        self.refuse_setting(["none.off"], "tissue.source=" + self.path("none.off"))
+        self.refuse_setting(["open.off", "open edges"], "tissue.source=" + self.write("open.off", OPEN_MESH))
+        text = "t,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n1,0,many,0,0,0,0,1\n"
+        self.refuse(["bad.csv:3", "column y", "many"], "--poses", self.write("bad.csv", text))
+
+    def test_settings(self):
+        self.refuse_setting(["tissue.voxelsize", "unknown"], "tissue.voxelsize=0.01")
+        self.refuse_setting(["release_offset", "0.003", "less than"], "fracture.release_offset=0.003")
+        self.refuse_setting(["poisson_ratio", "0.5"], "tissue.materials=[{poisson_ratio: 0.5}]")
+        self.refuse_setting(["tissue.voxel_size", "-0.004"], "tissue.voxel_size=-0.004")
+        self.refuse_setting(["voxels", "tissue.voxel_size"], "tissue.voxel_size=0.00008")
+        self.refuse_setting(["blade.edge", "two points"], "blade.edge=[[0,0,0]]")
+        self.refuse_setting(["blade.edge_links", "exactly one"], "blade.edge_links=[heel, tip]")
+
+    def test_empty_volume(self):
+        config = os.path.join(PACKAGE, "config", "liver.yaml")
+        self.refuse(["none of the selected labels"], "--duration", "1", "--set", "tissue.labels=[7]", config=config)
+
+    @needs_bags
+    def test_bags(self):
+        self.refuse(["none.bag"], "--bag", self.path("none.bag"))
+        self.refuse(["no topic", "/elsewhere"], "--bag", bag("straight_slice"), "--topic", "/elsewhere")
+        with open(bag("straight_slice"), "rb") as file, open(self.path("cut_off.bag"), "wb") as part:
+            part.write(file.read(20000))
+        self.refuse(["cut_off.bag", "rosbag reindex"], "--bag", self.path("cut_off.bag"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
