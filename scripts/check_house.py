@@ -17,7 +17,7 @@ FLOORS = [
     ["nodes", "rviz"],
 ]
 FLOOR_OF = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
-ROOMS_WITH_ROS = {"ros", "nodes", "rviz"}
+ROOMS_WITH_ROS = {"ros", "nodes", "rviz", "rostest"}
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
 

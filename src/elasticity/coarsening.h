@@ -20,9 +20,9 @@ struct Interpolation {
   void add(const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const;
 };
 
-/// The next coarser level: blocks of twice the edge, by the same rule as the composite elements. Elements that
-/// lie in one coarse block and are joined by faces are one coarse element; so the two sides of a cut stay
-/// apart.
+/// The next coarser level: blocks of twice the edge, by the same rule as the composite elements. Elements
+/// that lie in one coarse block and are joined by faces are one coarse element; so the two sides of a cut
+/// stay apart.
 struct Coarsening {
   explicit Coarsening(const ElementSet& fine);
 

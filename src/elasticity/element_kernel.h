@@ -5,8 +5,8 @@ namespace cfem_cutting {
 /// Elements in one batch, one a SIMD lane.
 constexpr int kLanes = 16;
 
-constexpr int kWholeMatrix = 24 * 24;     ///< entries of a shared matrix, column by column
-constexpr int kTriangle = 24 * 25 / 2;    ///< of the lower triangle of an own one, column by column
+constexpr int kWholeMatrix = 24 * 24;   ///< entries of a shared matrix, column by column
+constexpr int kTriangle = 24 * 25 / 2;  ///< of the lower triangle of an own one, column by column
 
 /// One batch of element products y = R K Rᵀ x. Arrays are lane-major: entry i of lane l at [16 i + l].
 template <typename Scalar>

@@ -9,8 +9,8 @@ namespace cfem_cutting {
 
 using SingleField = Eigen::Matrix3Xf;  ///< a node field in single precision
 
-/// The product Σ R K Rᵀ p over the elements of a level, matrix-free: elements go through the kernel in batches
-/// of SIMD lanes, and each node then adds up the entries of its elements in a fixed order.
+/// The product Σ R K Rᵀ p over the elements of a level, matrix-free: elements go through the kernel in
+/// batches of SIMD lanes, and each node then adds up the entries of its elements in a fixed order.
 class ElementProduct {
  public:
   explicit ElementProduct(ThreadPool& pool) : pool_(&pool) {}
@@ -32,7 +32,9 @@ class ElementProduct {
   std::vector<Mat3> diagonal_at_rest() const;
 
   /// The rotation of an element at each node: that of the first one there.
-  const Mat3& rotation_at(int node) const { return rotations_[element_corner_of_slot_[first_slot_[node]] / 8]; }
+  const Mat3& rotation_at(int node) const {
+    return rotations_[element_corner_of_slot_[first_slot_[node]] / 8];
+  }
 
   ThreadPool& pool() const { return *pool_; }
 

@@ -2,7 +2,8 @@
 
 namespace cfem_cutting {
 
-NodeCorners::NodeCorners(const ElementSet& set) : first(set.node_count + 1, 0), corners(8 * set.nodes.size()) {
+NodeCorners::NodeCorners(const ElementSet& set)
+    : first(set.node_count + 1, 0), corners(8 * set.nodes.size()) {
   for (const ElementNodes& nodes : set.nodes)
     for (int node : nodes) ++first[node + 1];
   for (int node = 0; node < set.node_count; ++node) first[node + 1] += first[node];

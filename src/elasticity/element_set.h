@@ -23,7 +23,7 @@ struct ElementSet {
 /// For each node the elements that meet there, as 8 e + corner, ascending.
 struct NodeCorners {
   explicit NodeCorners(const ElementSet& set);
-  std::vector<int> first;   ///< (|nodes| + 1) into `corners`
+  std::vector<int> first;  ///< (|nodes| + 1) into `corners`
   std::vector<int> corners;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "union_find.h"
+#include "cfem_cutting/elasticity/floating.h"
 
 namespace cfem_cutting {
 namespace {
@@ -29,12 +29,9 @@ Equilibrium::Equilibrium(const ElasticModel& model, const NodeField& start, cons
 }
 
 void Equilibrium::find_floating_nodes() {
-  UnionFind sets(model_.mesh().node_count());
-  for (const CompositeElement& element : model_.mesh().elements())
-    for (int node : element.nodes) sets.unite(element.nodes[0], node);
-  std::vector<char> grounded(model_.mesh().node_count(), 0);
-  for (int node : held_.nodes) grounded[sets.find(node)] = 1;
-  for (const PointConstraint& c : constraints_) grounded[sets.find(c.at.nodes[0])] = 1;
+  std::vector<int> holding = held_.nodes;
+  for (const PointConstraint& c : constraints_) holding.push_back(c.at.nodes[0]);
+  const std::vector<char> floating = floating_nodes(model_.mesh(), holding);
 
   // The stiffest element stands for E h.
   double stiffness = 0.0;
@@ -42,7 +39,7 @@ void Equilibrium::find_floating_nodes() {
     stiffness = std::max(stiffness, model_.stiffness(e).trace() / 24.0);
   force_unit_ = stiffness * model_.mesh().block_size().mean();
   for (int node = 0; node < model_.mesh().node_count(); ++node)
-    if (!grounded[sets.find(node)]) spring_[node] = kWeakSpring * stiffness;
+    if (floating[node]) spring_[node] = kWeakSpring * stiffness;
 }
 
 void Equilibrium::clear_held(NodeField& field) const {
@@ -103,8 +100,8 @@ SolveReport Equilibrium::solve_newton(Multigrid& multigrid, const SolverOptions&
 /// @return false if no step along the direction lowers the energy
 bool Equilibrium::newton_step(Multigrid& multigrid, const SolverOptions& options, double tolerance,
                               const NodeField& f, NodeField& x, SolveReport& total) const {
-  const LinearSystem system(multigrid, model_, model_.rotations(x), {spring_, 1.0, &constraints_}, held_.nodes,
-                            precision_for(tolerance));
+  const LinearSystem system(multigrid, model_, model_.rotations(x), {spring_, 1.0, &constraints_},
+                            held_.nodes, precision_for(tolerance));
   NodeField dx = NodeField::Zero(3, x.cols());
   bool held_moves = false;
   for (std::size_t i = 0; i < held_.nodes.size(); ++i) {

@@ -54,8 +54,8 @@ std::vector<MatrixPointer> GalerkinMatrices::assemble(const ElementSet& fine, co
     const auto [entry, added] = used.try_emplace(std::move(of_element));
     if (added) {
       const auto before = known_.find(entry->first);
-      entry->second = before != known_.end() ? before->second
-                                             : std::make_shared<const ElementMatrix>(sum(entry->first));
+      entry->second =
+          before != known_.end() ? before->second : std::make_shared<const ElementMatrix>(sum(entry->first));
     }
     matrices.push_back(entry->second);
   }

@@ -7,9 +7,9 @@
 
 namespace cfem_cutting {
 
-/// Stiffness of coarse elements, K_c = Σ Iᵀ K I over the fine elements in it at rest (Galerkin). Coarse elements
-/// with equal parts share one matrix; matrices are kept from call to call, so that a cut pays for what it
-/// touched only.
+/// Stiffness of coarse elements, K_c = Σ Iᵀ K I over the fine elements in it at rest (Galerkin). Coarse
+/// elements with equal parts share one matrix; matrices are kept from call to call, so that a cut pays for
+/// what it touched only.
 class GalerkinMatrices {
  public:
   /// @param held per fine node: its displacement is zero, whatever the coarse nodes do

@@ -125,7 +125,8 @@ void LevelSystem::add_constraints(const SingleField& p, SingleField& y) const {
   }
 }
 
-/// z = factor M⁻¹ r with M the nodes' blocks and the constraints, which are stiff and few (Woodbury's formula).
+/// z = factor M⁻¹ r with M the nodes' blocks and the constraints, which are stiff and few (Woodbury's
+/// formula).
 void LevelSystem::scale(const SingleField& r, float factor, SingleField& z) const {
   z.resize(3, r.cols());
   for (Eigen::Index n = 0; n < r.cols(); ++n) z.col(n).noalias() = factor * (inverse_[n] * r.col(n));
@@ -148,7 +149,8 @@ void LevelSystem::scale(const SingleField& r, float factor, SingleField& z) cons
   }
 }
 
-/// Chebyshev's iteration (Saad 2003, algorithm 12.1) from x with residual r; r goes along to the end if wanted.
+/// Chebyshev's iteration (Saad 2003, algorithm 12.1) from x with residual r; r goes along to the end if
+/// wanted.
 void LevelSystem::polish(SingleField& x, SingleField& r, bool residual_wanted) const {
   const float centre = static_cast<float>(0.5 * largest_ * (1.0 + kSmoothedPart));
   const float half_width = static_cast<float>(0.5 * largest_ * (1.0 - kSmoothedPart));
@@ -190,7 +192,8 @@ void LevelSystem::factorise() {
     for (int n = 0; n < 8; ++n)
       for (int m = 0; m < 8; ++m)
         A.block<3, 3>(3 * elements.nodes[e][n], 3 * elements.nodes[e][m]) +=
-            (stiffness_factor_ * R * elements.stiffness[e]->block<3, 3>(3 * n, 3 * m) * R.transpose()).cast<float>();
+            (stiffness_factor_ * R * elements.stiffness[e]->block<3, 3>(3 * n, 3 * m) * R.transpose())
+                .cast<float>();
   }
   for (const ConstraintRow& row : constraints_)
     for (int n = 0; n < 8; ++n)

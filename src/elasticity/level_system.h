@@ -64,7 +64,7 @@ class LevelSystem {
   Eigen::VectorXf node_diagonal_;
   float stiffness_factor_ = 1.0f;
   std::vector<ConstraintRow> constraints_;
-  std::vector<Eigen::Matrix3f> inverse_;  // m/N; zero for held nodes
+  std::vector<Eigen::Matrix3f> inverse_;     // m/N; zero for held nodes
   Eigen::LDLT<Eigen::MatrixXf> compliance_;  // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
   Eigen::LLT<Eigen::MatrixXf> factors_;
   mutable SingleField step_, change_, scaled_;  // scratch

@@ -123,8 +123,9 @@ SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx,
     if (report.converged || report.iterations >= max_iterations || stagnates) return report;
     before = size;
     SingleField scaled = (r / size).cast<float>(), change;
-    report.iterations += conjugate_gradients(system, scaled, change, std::max(0.9 * goal / size, kMostReduction),
-                                             max_iterations - report.iterations);
+    report.iterations +=
+        conjugate_gradients(system, scaled, change, std::max(0.9 * goal / size, kMostReduction),
+                            max_iterations - report.iterations);
     dx += size * change.cast<double>();
   }
 }

@@ -6,8 +6,8 @@
 
 namespace cfem_cutting {
 
-/// Single precision carries a relative residual of about 1e-6; residuals are taken in double where less is asked
-/// for.
+/// Single precision carries a relative residual of about 1e-6; residuals are taken in double where less is
+/// asked for.
 enum class Precision { kSingle, kDouble };
 inline Precision precision_for(double tolerance) {
   return tolerance < 1e-5 ? Precision::kDouble : Precision::kSingle;
@@ -37,8 +37,8 @@ class LinearSystem {
 void add_constraint_forces(const std::vector<PointConstraint>& constraints, const NodeField& x,
                            NodeField& forces);
 
-/// Solves A dx = b by conjugate gradients in single precision, preconditioned by the V-cycle, inside iterative
-/// refinement; held nodes keep their dx.
+/// Solves A dx = b by conjugate gradients in single precision, preconditioned by the V-cycle, inside
+/// iterative refinement; held nodes keep their dx.
 /// @param dx initial guess, and the solution
 /// @param tolerance of ‖b − A dx‖ over free nodes, relative to that with the free dx = 0
 /// @param max_iterations in total

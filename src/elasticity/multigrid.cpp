@@ -54,7 +54,8 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
   for (int node : held) flags[node] = 1;
   levels_.clear();
   add_level(elements_of(model), std::move(flags));
-  while (levels_.size() < kMostLevels && levels_.back().system.product().elements().node_count > kCoarsestNodes) {
+  while (levels_.size() < kMostLevels &&
+         levels_.back().system.product().elements().node_count > kCoarsestNodes) {
     Level& fine = levels_.back();
     const ElementSet& elements = fine.system.product().elements();
     Coarsening coarsening(elements);
@@ -85,8 +86,7 @@ void Multigrid::set(std::vector<Mat3> rotations, const SystemValues& values) {
     Eigen::VectorXf diagonal = Eigen::VectorXf::Zero(elements.node_count);
     for (int n = 0; n < fine.interpolation.rows(); ++n)
       for (int i = fine.interpolation.first[n]; i < fine.interpolation.first[n + 1]; ++i)
-        diagonal[fine.interpolation.node[i]] +=
-            fine.interpolation.weight[i] * fine.system.node_diagonal()[n];
+        diagonal[fine.interpolation.node[i]] += fine.interpolation.weight[i] * fine.system.node_diagonal()[n];
     coarse.set(coarse_rotations(fine, elements.size()), std::move(diagonal), factor,
                coarse_constraints(fine, elements));
   }

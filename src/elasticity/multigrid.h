@@ -18,8 +18,8 @@ struct SystemValues {
 };
 
 /// A symmetric V-cycle over the composite hierarchy (Dick, Georgii and Westermann 2011): a preconditioner for
-/// A = D + s Σ R K Rᵀ + Σ k (w ⊗ d)(w ⊗ d)ᵀ. Coarse elements have the rest matrices of what is in them (Galerkin)
-/// and the mean of its rotations; the coarsest level is solved directly.
+/// A = D + s Σ R K Rᵀ + Σ k (w ⊗ d)(w ⊗ d)ᵀ. Coarse elements have the rest matrices of what is in them
+/// (Galerkin) and the mean of its rotations; the coarsest level is solved directly.
 class Multigrid {
  public:
   explicit Multigrid(ThreadPool& pool) : pool_(pool) {}

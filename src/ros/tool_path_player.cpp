@@ -8,9 +8,9 @@
 #include <iostream>
 
 #include "cfem_cutting/geometry/errors.h"
+#include "cfem_cutting/io/tool_path.h"
 #include "cfem_cutting/ros/conversions.h"
 #include "cfem_cutting/ros/parameters.h"
-#include "cfem_cutting/io/tool_path.h"
 
 namespace cfem_cutting {
 namespace {

@@ -47,7 +47,8 @@ void Simulation::State::meet(const FrontMotion& moved) {
   if (is_out()) come_out();
 }
 
-/// Beyond the tissue, or back from it. What the front has gone through is severed now, the rest waits no more.
+/// Beyond the tissue, or back from it. What the front has gone through is severed now, the rest waits no
+/// more.
 void Simulation::State::come_out() {
   unit.drop_if([&](const Candidate& c) {
     const int voxel = c.crossing.link.voxel;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "cfem_cutting/elasticity/floating.h"
+
 namespace cfem_cutting {
 namespace {
 
@@ -68,17 +70,27 @@ void Simulation::State::place_grips(const StepInput& input) {
   if (grips_moved && !contact.empty()) refresh_reference();
 }
 
-/// Without the blade the tissue is its own reference; in contact it is solved for (at first touch, after each
-/// fracture that severs links, and while grips move).
+/// In contact the reference is solved for: at first touch, after each fracture that severs links, and while
+/// grips move.
 void Simulation::State::refresh_reference() {
-  if (contact.empty()) {
-    const double change = (elastic.x - reference).cwiseAbs().maxCoeff();
-    constexpr double kNegligible = 1.0e-4;  // of a block
-    if (change < kNegligible * block && reference.cols() == elastic.x.cols()) return;
-    reference = elastic.x;
-  } else {
-    integrator.equilibrate(model, reference, config.tissue.gravity, grips.held(), {});
-  }
+  integrator.equilibrate(model, reference, config.tissue.gravity, grips.held(), {});
+  pull_back = std::make_unique<InverseMap>(volume, model.mesh(), reference);
+}
+
+/// Without the blade the tissue is its own reference, unless it still swings: a blade in its cut would seem
+/// to go to and fro.
+void Simulation::State::follow_free_state() {
+  constexpr double kNegligible = 1.0e-4;  // of a block
+  constexpr double kSwing = 0.05;         // of a block in a step
+  const std::vector<char> floating = floating_nodes(model.mesh(), grips.held().nodes);
+  double swing = 0.0;
+  for (Eigen::Index n = 0; n < reference.cols(); ++n)
+    if (!floating[n]) swing = std::max(swing, elastic.v.col(n).norm() * config.dynamics.time_step);
+  NodeField next = elastic.x;
+  for (Eigen::Index n = 0; n < reference.cols(); ++n)
+    if (!floating[n] && swing > kSwing * block) next.col(n) = reference.col(n);
+  if ((next - reference).cwiseAbs().maxCoeff() < kNegligible * block) return;
+  reference = std::move(next);
   pull_back = std::make_unique<InverseMap>(volume, model.mesh(), reference);
 }
 
@@ -121,7 +133,7 @@ void Simulation::State::solve(StepReport& report) {
     solved = integrator.step(model, elastic, config.dynamics.time_step, gravity, grips.held(), constraints);
   }
   contact.take_forces(constraints, elastic.x);
-  if (contact.empty()) refresh_reference();
+  if (contact.empty()) follow_free_state();
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   report.converged = solved.converged;

@@ -35,6 +35,7 @@ struct Simulation::State {
   void advance_cut_end();
   void describe(const Fracture& fracture, FractureEvent& event);
   void refresh_reference();
+  void follow_free_state();
   double potential(const NodeField& x) const;
   double contact_offset(const OffsetField& offsets) const;
   FrontTrace front_trace() const;

@@ -18,10 +18,10 @@ struct MaterialPoint {
 /// Inverse of the deformation φ given by node positions: x ↦ X, by a spatial hash of the deformed elements
 /// and Newton's method on the trilinear map. A point is inside if X lies in a linked voxel of that very
 /// element and on the tissue's side of that voxel's surface and severed links (planes of their Hermite data).
-/// Where that holds for two places at once, the sides of a cut overlap: the point counts as in the cut, in air.
-/// Points outside, up to `reach` blocks from tissue, are extrapolated from the nearest element; where that
-/// would land in the tissue of another element (an open cut), X is drawn back to the nearest point of the own
-/// element's tissue.
+/// Where that holds for two places at once, the sides of a cut overlap: the point counts as in the cut, in
+/// air. Points outside, up to `reach` blocks from tissue, are extrapolated from the nearest element; where
+/// that would land in the tissue of another element (an open cut), X is drawn back to the nearest point of
+/// the own element's tissue.
 class InverseMap {
  public:
   /// Keeps references: volume and mesh must outlive it; x is copied.
