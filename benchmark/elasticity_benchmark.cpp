@@ -1,13 +1,18 @@
-/// Times of the elastic solver on boxes and tilted boxes of tissue, one thread.
+// Times of the elastic solver on cubes of tissue: products, V-cycles, whole steps, cuts, start-up. Counters: time
+// per element in yardsticks (see yardstick.h), elements per second.
 
 #include <benchmark/benchmark.h>
 
-#include "cfem_cutting/elasticity/integrator.h"
 #include "cfem_cutting/elasticity/inverse_map.h"
 #include "cfem_cutting/volume/shapes.h"
+#include "linear_system.h"
+#include "yardstick.h"
 
 namespace cfem_cutting {
 namespace {
+
+const std::vector<std::int64_t> kSides{10, 16, 20, 32, 50};  // 1k, 4k, 8k, 32k and 125k elements
+const Material kTissue{-1, 1e4, 0.45, 1060.0};
 
 /// A cube of 0.1 m with `across` elements an edge; tilted: its surface elements are partly filled.
 VoxelVolume cube(int across, bool tilted) {
@@ -16,8 +21,22 @@ VoxelVolume cube(int across, bool tilted) {
   return VoxelVolume::sample(*make_box(Vec3::Constant(0.1), pose), Vec3::Constant(0.1 / across));
 }
 
-ElasticModel model_of(const VoxelVolume& volume, int level = 0) {
-  return {volume, level, {Material()}, ElementKind::kIncompatibleModes, Kinematics::kCorotational};
+ElasticModel model_of(const VoxelVolume& volume, const Material& material = kTissue) {
+  return {volume, 0, {material}, ElementKind::kIncompatibleModes, Kinematics::kCorotational};
+}
+
+/// Severs the links that cross the plane y = 0.0503 below the height z.
+int sever_sheet(VoxelVolume& volume, double above) {
+  int severed = 0;
+  for (std::size_t v = 0; v < volume.voxels().size(); ++v) {
+    const Vec3 X = volume.centre(static_cast<int>(v));
+    const Voxel& voxel = volume.voxels()[v];
+    const bool crosses = X.y() < 0.0503 && X.y() + volume.lattice().spacing.y() >= 0.0503 && X.z() > above;
+    if (!crosses || !voxel.linked() || voxel.neighbour[3] < 0 || voxel.link[3] != LinkState::kIntact) continue;
+    volume.sever({static_cast<int>(v), 1}, {Vec3(X.x(), 0.0503, X.z()), Vec3::UnitY()});
+    ++severed;
+  }
+  return severed;
 }
 
 HeldNodes hold_bottom(const CompositeMesh& mesh) {
@@ -31,44 +50,131 @@ HeldNodes hold_bottom(const CompositeMesh& mesh) {
   return held;
 }
 
-void BM_Build(benchmark::State& state) {
-  const VoxelVolume volume = cube(static_cast<int>(state.range(0)), state.range(1));
-  for (auto _ : state) benchmark::DoNotOptimize(model_of(volume).total_mass());
-  state.counters["voxels"] = static_cast<double>(volume.voxels().size());
+void report(benchmark::State& state, std::size_t elements, double per_iteration = 1.0) {
+  using benchmark::Counter;
+  const double count = static_cast<double>(elements);
+  state.counters["elements"] = count;
+  state.counters["elements/s"] = Counter(count * per_iteration, Counter::kIsIterationInvariantRate);
+  state.counters["yardsticks"] =
+      Counter(count * yardstick(), Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
-BENCHMARK(BM_Build)->Args({16, 0})->Args({16, 1})->Args({30, 1})->Unit(benchmark::kMillisecond);
 
-void BM_Forces(benchmark::State& state) {
-  const VoxelVolume volume = cube(16, state.range(0));
-  const ElasticModel model = model_of(volume);
-  for (auto _ : state) benchmark::DoNotOptimize(model.forces(model.mesh().rest()));
+void product(benchmark::State& state) {
+  const ElasticModel model = model_of(cube(static_cast<int>(state.range(0)), state.range(1)));
+  ThreadPool pool(1);
+  ElementProduct product(pool);
+  product.arrange(model.element_set());
+  const SingleField x = model.mesh().rest().cast<float>();
+  SingleField y;
+  for (auto _ : state) product.apply(x, y);
+  report(state, model.mesh().elements().size());
 }
-BENCHMARK(BM_Forces)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(product)->ArgsProduct({kSides, {0}})->Args({32, 1})->Unit(benchmark::kMillisecond);
 
-void BM_Step(benchmark::State& state) {
-  const VoxelVolume volume = cube(static_cast<int>(state.range(0)), state.range(1));
-  const ElasticModel model = model_of(volume);
+void v_cycle(benchmark::State& state) {
+  const ElasticModel model = model_of(cube(static_cast<int>(state.range(0)), false));
+  ThreadPool pool(static_cast<int>(state.range(1)));
+  Multigrid multigrid(pool);
+  const HeldNodes held = hold_bottom(model.mesh());
+  const std::vector<PointConstraint> none;
+  multigrid.arrange(model, held.nodes);
+  multigrid.set(model.rotations(model.mesh().rest()),
+                {Eigen::VectorXd::Zero(model.mesh().node_count()), 1.0, &none});
+  const SingleField r = SingleField::Random(3, model.mesh().node_count());
+  SingleField z;
+  for (auto _ : state) multigrid.precondition(r, z);
+  report(state, model.mesh().elements().size());
+}
+BENCHMARK(v_cycle)->ArgsProduct({kSides, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void response(benchmark::State& state) {
+  const ElasticModel model = model_of(cube(static_cast<int>(state.range(0)), state.range(1)));
+  for (auto _ : state) benchmark::DoNotOptimize(model.respond(model.mesh().rest()));
+  report(state, model.mesh().elements().size());
+}
+BENCHMARK(response)->Args({32, 0})->Args({32, 1})->Unit(benchmark::kMillisecond);
+
+/// Swings under its weight. Arguments: elements across, tilted, threads.
+void step(benchmark::State& state) {
+  const ElasticModel model = model_of(cube(static_cast<int>(state.range(0)), state.range(1)));
   const HeldNodes held = hold_bottom(model.mesh());
   SolverOptions options;
-  options.threads = 1;
+  options.threads = static_cast<int>(state.range(2));
   Integrator integrator(options);
   ElasticState now{model.mesh().rest(), NodeField::Zero(3, model.mesh().node_count())};
   int iterations = 0;
   for (auto _ : state) iterations += integrator.step(model, now, 0.01, {0, 0, -9.81}, held, {}).iterations;
   state.counters["iterations"] = static_cast<double>(iterations) / static_cast<double>(state.iterations());
-  state.counters["elements"] = static_cast<double>(model.mesh().elements().size());
+  report(state, model.mesh().elements().size());
 }
-BENCHMARK(BM_Step)->Args({16, 0})->Args({16, 1})->Args({32, 0})->Unit(benchmark::kMillisecond);
+BENCHMARK(step)
+    ->ArgsProduct({kSides, {0}, {1, 2}})
+    ->Args({20, 1, 1})
+    ->Args({32, 1, 1})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
-void BM_BuildInverseMap(benchmark::State& state) {
+/// Equilibrium under a tenth of the weight. Arguments: elements across, per cent of the height that is cut,
+/// ν in per cent.
+void equilibrium(benchmark::State& state) {
+  VoxelVolume volume = cube(static_cast<int>(state.range(0)), false);
+  sever_sheet(volume, 0.1 * (1.0 - 0.01 * static_cast<double>(state.range(1))));
+  const ElasticModel model = model_of(volume, {-1, 1e4, 0.01 * static_cast<double>(state.range(2)), 1060.0});
+  const HeldNodes held = hold_bottom(model.mesh());
+  SolverOptions options;
+  options.threads = 1;
+  Integrator integrator(options);
+  NodeField x;
+  int iterations = 0, newtons = 0;
+  for (auto _ : state) {
+    x = model.mesh().rest();
+    iterations += integrator.equilibrate(model, x, {0, 0, -0.1}, held, {}, 1).iterations;
+    ++newtons;
+  }
+  state.counters["iterations"] = static_cast<double>(iterations) / newtons;
+  report(state, model.mesh().elements().size());
+}
+BENCHMARK(equilibrium)
+    ->ArgsProduct({kSides, {0, 50}, {45}})
+    ->Args({20, 0, 49})
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
+/// Severing a sheet of links halfway through, and all structures up to date, a solver's too.
+void cut(benchmark::State& state) {
+  const VoxelVolume whole = cube(static_cast<int>(state.range(0)), false);
+  for (auto _ : state) {
+    state.PauseTiming();
+    VoxelVolume volume = whole;
+    ElasticModel model = model_of(volume);
+    ThreadPool pool(1);
+    Multigrid multigrid(pool);
+    multigrid.arrange(model, hold_bottom(model.mesh()).nodes);
+    state.ResumeTiming();
+    state.counters["links"] = sever_sheet(volume, 0.05);
+    model.update(volume);
+    multigrid.arrange(model, hold_bottom(model.mesh()).nodes);
+  }
+  report(state, whole.voxels().size());
+}
+BENCHMARK(cut)->Arg(20)->Arg(32)->Iterations(3)->Unit(benchmark::kMillisecond);
+
+void start_up(benchmark::State& state) {
+  const VoxelVolume volume = cube(static_cast<int>(state.range(0)), state.range(1));
+  for (auto _ : state) benchmark::DoNotOptimize(model_of(volume).total_mass());
+  report(state, volume.voxels().size());
+}
+BENCHMARK(start_up)->ArgsProduct({kSides, {0}})->Args({32, 1})->Iterations(2)->Unit(benchmark::kMillisecond);
+
+void build_inverse_map(benchmark::State& state) {
   const VoxelVolume volume = cube(16, true);
   const CompositeMesh mesh(volume, 0);
   for (auto _ : state) InverseMap(volume, mesh, mesh.rest());
 }
-BENCHMARK(BM_BuildInverseMap)->Unit(benchmark::kMillisecond);
+BENCHMARK(build_inverse_map)->Unit(benchmark::kMillisecond);
 
 /// Points above the cube's surface (1) or inside (0).
-void BM_QueryInverseMap(benchmark::State& state) {
+void query_inverse_map(benchmark::State& state) {
   const VoxelVolume volume = cube(16, false);
   const CompositeMesh mesh(volume, 0);
   const InverseMap map(volume, mesh, mesh.rest());
@@ -78,7 +184,7 @@ void BM_QueryInverseMap(benchmark::State& state) {
     benchmark::DoNotOptimize(map({x, 0.05, state.range(0) ? 0.105 : 0.04}));
   }
 }
-BENCHMARK(BM_QueryInverseMap)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+BENCHMARK(query_inverse_map)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace cfem_cutting

@@ -134,18 +134,20 @@ Interpolation Interpolation::transposed(int columns) const {
   return t;
 }
 
-void Interpolation::apply(const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const {
-  y.resize(3, rows());
-  for (int row = 0; row < rows(); ++row) {
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (int i = first[row]; i < first[row + 1]; ++i) sum += weight[i] * x.col(node[i]);
-    y.col(row) = sum;
-  }
+void Interpolation::apply(ThreadPool& pool, const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const {
+  y = Eigen::Matrix3Xf::Zero(3, rows());
+  add(pool, x, y);
 }
 
-void Interpolation::add(const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const {
-  for (int row = 0; row < rows(); ++row)
-    for (int i = first[row]; i < first[row + 1]; ++i) y.col(row) += weight[i] * x.col(node[i]);
+void Interpolation::add(ThreadPool& pool, const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const {
+  constexpr int kFewest = 4096;  // rows worth waking a thread for
+  pool.for_range(rows(), kFewest, [&](int begin, int end) {
+    for (int row = begin; row < end; ++row) {
+      Eigen::Vector3f sum = y.col(row);
+      for (int i = first[row]; i < first[row + 1]; ++i) sum += weight[i] * x.col(node[i]);
+      y.col(row) = sum;
+    }
+  });
 }
 
 }  // namespace cfem_cutting

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "element_set.h"
+#include "thread_pool.h"
 
 namespace cfem_cutting {
 
@@ -16,8 +17,8 @@ struct Interpolation {
   Interpolation transposed(int columns) const;
 
   /// y_i = Σ w x, or y_i += Σ w x
-  void apply(const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const;
-  void add(const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const;
+  void apply(ThreadPool& pool, const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const;
+  void add(ThreadPool& pool, const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const;
 };
 
 /// The next coarser level: blocks of twice the edge, by the same rule as the composite elements. Elements

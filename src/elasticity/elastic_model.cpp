@@ -4,33 +4,15 @@
 #include <string>
 
 #include "cfem_cutting/geometry/errors.h"
+#include "corotation.h"
 #include "element_matrix.h"
-#include "rotation.h"
 
 namespace cfem_cutting {
 namespace {
 
-using Positions = Eigen::Matrix<double, 3, 8>;  // m
-
-/// Positions of an element's nodes relative to its first node: keeps rigid motion free of rounding at large
-/// coordinates.
-Positions local_positions(const CompositeElement& element, const NodeField& x) {
-  Positions local;
-  for (int n = 0; n < 8; ++n) local.col(n) = x.col(element.nodes[n]) - x.col(element.nodes[0]);
-  return local;
-}
-
 std::uint64_t next_version() {
   static std::atomic<std::uint64_t> counter{0};
   return ++counter;
-}
-
-/// Nodal forces on the co-rotated element, K u.
-Positions rest_frame_forces(const ElementMatrix& K, const Positions& displacement) {
-  Positions forces;
-  Eigen::Map<Eigen::Matrix<double, 24, 1>>(forces.data()).noalias() =
-      K * Eigen::Map<const Eigen::Matrix<double, 24, 1>>(displacement.data());
-  return forces;
 }
 
 }  // namespace
@@ -90,8 +72,22 @@ struct ElasticModel::Matrices {
     of_element = std::move(data);
   }
 
-  PolarRotation rotation(int element, const Positions& local) const {
-    return polar_rotation(local * of_element[element]->mean_gradient.transpose());
+  /// Elements of the multigrid's finest level.
+  ElementSet element_set(const CompositeMesh& mesh) const {
+    ElementSet set;
+    set.node_count = mesh.node_count();
+    for (std::size_t e = 0; e < mesh.elements().size(); ++e) {
+      set.block.push_back(mesh.elements()[e].block);
+      set.nodes.push_back(mesh.elements()[e].nodes);
+      set.stiffness.emplace_back(of_element[e], &of_element[e]->stiffness);
+    }
+    return set;
+  }
+
+  void arrange(const CompositeMesh& mesh, Kinematics kinematics) {
+    std::vector<const MeanGradient*> gradients;
+    for (const auto& data : of_element) gradients.push_back(&data->mean_gradient);
+    corotation = Corotation(element_set(mesh), std::move(gradients), mesh.block_size(), kinematics);
   }
 
   int level;
@@ -101,7 +97,7 @@ struct ElasticModel::Matrices {
   std::vector<int> material_of_voxel;
   std::vector<std::shared_ptr<const ElementData>> full_block;  // per material
   std::vector<std::shared_ptr<const ElementData>> of_element;
-  std::atomic<int> inverted{0};
+  Corotation corotation;
 };
 
 ElasticModel::ElasticModel(const VoxelVolume& volume, int level, std::vector<Material> materials,
@@ -119,6 +115,7 @@ ElasticModel::ElasticModel(const VoxelVolume& volume, int level, std::vector<Mat
   }
   mesh_ = std::make_unique<CompositeMesh>(volume, level_);
   matrices_->rebuild(volume, *mesh_, nullptr);
+  matrices_->arrange(*mesh_, kinematics_);
   lump_masses();
 }
 
@@ -129,6 +126,7 @@ std::vector<int> ElasticModel::update(const VoxelVolume& volume) {
   std::vector<int> parents = parent_nodes(*mesh_, *mesh);
   matrices_->rebuild(volume, *mesh, mesh_.get());
   mesh_ = std::move(mesh);
+  matrices_->arrange(*mesh_, kinematics_);
   lump_masses();
   return parents;
 }
@@ -140,68 +138,15 @@ void ElasticModel::lump_masses() {
   version_ = next_version();
 }
 
-double ElasticModel::energy(const NodeField& x) const {
-  double sum = 0.0;
-  for (std::size_t e = 0; e < mesh_->elements().size(); ++e) {
-    const CompositeElement& element = mesh_->elements()[e];
-    const Positions local = local_positions(element, x);
-    Positions u = local;
-    if (kinematics_ == Kinematics::kCorotational)
-      u = matrices_->rotation(static_cast<int>(e), local).R.transpose() * local;
-    u -= local_positions(element, mesh_->rest());
-    sum += 0.5 * u.cwiseProduct(rest_frame_forces(matrices_->of_element[e]->stiffness, u)).sum();
-  }
-  return sum;
+ElasticResponse ElasticModel::respond(const NodeField& x, ThreadPool* pool) const {
+  ThreadPool caller_only(1);
+  return matrices_->corotation.respond(x, pool ? *pool : caller_only);
 }
 
-/// With y = Rᵀx, f = K(y − X): dE = f·Rᵀdx + f·dRᵀx, dR = R[ω]×, hence f·dRᵀx = −ω·t with t = Σ yₙ × fₙ.
-/// The skew part of RᵀdF = d(RᵀF) + [ω]×S gives (tr(S) I − S) ω = Σ gₙ × Rᵀdxₙ for S = RᵀF, F = Σ xₙ gₙᵀ.
-/// So ∂E/∂xₙ = R (fₙ − q × gₙ) with (tr(S) I − S) q = t.
-NodeField ElasticModel::forces(const NodeField& x) const {
-  NodeField sum = NodeField::Zero(3, x.cols());
-  for (std::size_t e = 0; e < mesh_->elements().size(); ++e) {
-    const CompositeElement& element = mesh_->elements()[e];
-    const ElementData& data = *matrices_->of_element[e];
-    const Positions local = local_positions(element, x);
-    const Positions rest = local_positions(element, mesh_->rest());
-    Positions gradient;
-    if (kinematics_ == Kinematics::kLinear) {
-      gradient = rest_frame_forces(data.stiffness, local - rest);
-    } else {
-      const Mat3 R = matrices_->rotation(static_cast<int>(e), local).R;
-      const Positions y = R.transpose() * local;
-      Positions f = rest_frame_forces(data.stiffness, y - rest);
-      Vec3 torque = Vec3::Zero();
-      for (int n = 0; n < 8; ++n) torque += y.col(n).cross(f.col(n));
-      const Vec3 q = solve_spin(y * data.mean_gradient.transpose(), torque);
-      for (int n = 0; n < 8; ++n) f.col(n) -= q.cross(Vec3(data.mean_gradient.col(n)));
-      gradient = R * f;
-    }
-    for (int n = 0; n < 8; ++n) sum.col(element.nodes[n]) -= gradient.col(n);
-  }
-  return sum;
+const ElementMatrix& ElasticModel::stiffness(int element) const {
+  return matrices_->of_element[element]->stiffness;
 }
 
-std::vector<Mat3> ElasticModel::rotations(const NodeField& x) const {
-  std::vector<Mat3> rotations(mesh_->elements().size(), Mat3::Identity());
-  matrices_->inverted = 0;
-  if (kinematics_ == Kinematics::kLinear) return rotations;
-  int inverted = 0;
-  for (std::size_t e = 0; e < rotations.size(); ++e) {
-    const PolarRotation polar =
-        matrices_->rotation(static_cast<int>(e), local_positions(mesh_->elements()[e], x));
-    rotations[e] = polar.R;
-    inverted += polar.inverted;
-  }
-  matrices_->inverted = inverted;
-  return rotations;
-}
-
-std::shared_ptr<const ElementMatrix> ElasticModel::shared_stiffness(int element) const {
-  const auto& data = matrices_->of_element[element];
-  return {data, &data->stiffness};
-}
-
-int ElasticModel::inverted_elements() const { return matrices_->inverted; }
+const ElementSet& ElasticModel::element_set() const { return matrices_->corotation.elements(); }
 
 }  // namespace cfem_cutting

@@ -8,10 +8,12 @@
 
 namespace cfem_cutting {
 
+using MeanGradient = Eigen::Matrix<double, 3, 8>;
+
 /// What an element needs at rest.
 struct ElementData {
   ElementMatrix stiffness;                    ///< N/m
-  Eigen::Matrix<double, 3, 8> mean_gradient;  ///< 1/m, of the shape functions over the filled volume
+  MeanGradient mean_gradient;                ///< 1/m, of the shape functions over the filled volume
   Eigen::Matrix<double, 8, 1> mass;           ///< kg, row sums
 };
 

@@ -2,15 +2,14 @@
 
 #include <vector>
 
-#include "element_set.h"
-#include "thread_pool.h"
+#include "element_batches.h"
 
 namespace cfem_cutting {
 
 using SingleField = Eigen::Matrix3Xf;  ///< a node field in single precision
 
-/// The product Σ R K Rᵀ p over the elements of a level, matrix-free: elements go through the kernel in
-/// batches of SIMD lanes, and each node then adds up the entries of its elements in a fixed order.
+/// The product Σ R K Rᵀ p over the elements of a level, matrix-free: elements go through the kernel in batches
+/// of SIMD lanes, and each node then adds up the entries of its elements in a fixed order.
 class ElementProduct {
  public:
   explicit ElementProduct(ThreadPool& pool) : pool_(&pool) {}
@@ -23,6 +22,7 @@ class ElementProduct {
 
   const ElementSet& elements() const { return elements_; }
   const std::vector<Mat3>& rotations() const { return rotations_; }
+  ThreadPool& pool() const { return *pool_; }
 
   /// y = Σ R K Rᵀ p, in the precision of its arguments
   void apply(const SingleField& p, SingleField& y) const;
@@ -32,30 +32,18 @@ class ElementProduct {
   std::vector<Mat3> diagonal_at_rest() const;
 
   /// The rotation of an element at each node: that of the first one there.
-  const Mat3& rotation_at(int node) const {
-    return rotations_[element_corner_of_slot_[first_slot_[node]] / 8];
-  }
-
-  ThreadPool& pool() const { return *pool_; }
+  const Mat3& rotation_at(int node) const { return rotations_[batches_.first_element[node]]; }
 
  private:
   /// Arrays for the kernel in one precision.
   template <typename Scalar>
   struct Packed {
     std::vector<Scalar> stiffness;
-    std::vector<Scalar> rotations;  // (|batches| × 9 × lanes)
-    std::vector<Scalar> products;   // (|batches| × 24 × lanes)
+    std::vector<std::size_t> stiffness_of_batch;  // offsets
+    std::vector<Scalar> rotations;                // (|batches| × 9 × lanes)
+    std::vector<Scalar> products;                 // (|batches| × 24 × lanes)
     bool stiffness_fits = false, rotations_fit = false;
   };
-  struct Batch {
-    int first;  // in element_of_lane_
-    int count;  // ≤ lanes
-    bool shared;
-    std::size_t stiffness;  // offset in Packed::stiffness
-  };
-
-  void add_batches(const std::vector<int>& elements, bool shared);
-  void connect_nodes();
   template <typename Scalar>
   void pack_stiffness(Packed<Scalar>& packed) const;
   template <typename Scalar>
@@ -67,13 +55,7 @@ class ElementProduct {
   ThreadPool* pool_;
   ElementSet elements_;
   std::vector<Mat3> rotations_;
-  std::vector<Batch> batches_;
-  std::size_t stiffness_count_ = 0;
-  std::vector<int> element_of_lane_;         // batch by batch
-  std::vector<int> nodes_;                   // (|batches| × 8 × lanes)
-  std::vector<int> first_slot_;              // (|nodes| + 1) into slots_
-  std::vector<int> slots_;                   // offsets of x entries in Packed::products
-  std::vector<int> element_corner_of_slot_;  // 8 e + n, as slots_
+  ElementBatches batches_;
   mutable Packed<float> single_;
   mutable Packed<double> double_;
 };

@@ -46,9 +46,9 @@ void Equilibrium::clear_held(NodeField& field) const {
   for (int node : held_.nodes) field.col(node).setZero();
 }
 
-double Equilibrium::energy(const NodeField& x) const {
+double Equilibrium::energy(const ElasticResponse& elastic, const NodeField& x) const {
   const NodeField moved = x - start_;
-  double sum = model_.energy(x) - weight_.cwiseProduct(moved).sum();
+  double sum = elastic.energy - weight_.cwiseProduct(moved).sum();
   for (Eigen::Index n = 0; n < x.cols(); ++n) sum += 0.5 * spring_[n] * moved.col(n).squaredNorm();
   for (const PointConstraint& c : constraints_) {
     const double gap = c.target - c.direction.dot(c.at.apply(x));
@@ -57,8 +57,8 @@ double Equilibrium::energy(const NodeField& x) const {
   return sum;
 }
 
-NodeField Equilibrium::forces(const NodeField& x) const {
-  NodeField forces = model_.forces(x) + weight_ - (x - start_) * spring_.asDiagonal();
+NodeField Equilibrium::forces(const ElasticResponse& elastic, const NodeField& x) const {
+  NodeField forces = elastic.forces + weight_ - (x - start_) * spring_.asDiagonal();
   add_constraint_forces(constraints_, x, forces);
   return forces;
 }
@@ -80,8 +80,9 @@ SolveReport Equilibrium::solve_newton(Multigrid& multigrid, const SolverOptions&
                                       int max_newton) const {
   SolveReport total;
   double initial = 0.0;
+  ElasticResponse elastic = model_.respond(x, &multigrid.pool());
   for (int newton = 0;; ++newton) {
-    NodeField f = forces(x);
+    NodeField f = forces(elastic, x);
     const double reference = std::max(load(f), kLoosestSolve * initial);
     clear_held(f);
     bool held_in_place = true;
@@ -89,18 +90,20 @@ SolveReport Equilibrium::solve_newton(Multigrid& multigrid, const SolverOptions&
       held_in_place = held_in_place && x.col(held_.nodes[i]) == held_.positions[i];
     initial = std::max(initial, f.norm());
     total.residual = f.norm() / reference;
+    total.inverted_elements = elastic.inverted;
     total.converged = held_in_place && (total.residual <= options.tolerance || f.norm() <= rounding(x));
     if (total.converged || newton == max_newton) return total;
     const double inner =
         std::clamp(0.3 * options.tolerance / std::max(total.residual, 1e-300), kTightestSolve, kLoosestSolve);
-    if (!newton_step(multigrid, options, inner, f, x, total)) return total;
+    if (!newton_step(multigrid, options, inner, f, elastic, x, total)) return total;
   }
 }
 
 /// @return false if no step along the direction lowers the energy
 bool Equilibrium::newton_step(Multigrid& multigrid, const SolverOptions& options, double tolerance,
-                              const NodeField& f, NodeField& x, SolveReport& total) const {
-  const LinearSystem system(multigrid, model_, model_.rotations(x), {spring_, 1.0, &constraints_},
+                              const NodeField& f, ElasticResponse& elastic, NodeField& x,
+                              SolveReport& total) const {
+  const LinearSystem system(multigrid, model_, elastic.rotations, {spring_, 1.0, &constraints_},
                             held_.nodes, precision_for(tolerance));
   NodeField dx = NodeField::Zero(3, x.cols());
   bool held_moves = false;
@@ -110,21 +113,25 @@ bool Equilibrium::newton_step(Multigrid& multigrid, const SolverOptions& options
   }
   total.iterations +=
       solve(system, f, dx, tolerance, options.max_iterations, model_.mesh().block_size().mean()).iterations;
-  if (!held_moves) return search_line(dx, f, x);
+  if (!held_moves) return search_line(multigrid.pool(), dx, f, elastic, x);
   x += dx;
   for (std::size_t i = 0; i < held_.nodes.size(); ++i) x.col(held_.nodes[i]) = held_.positions[i];
+  elastic = model_.respond(x, &multigrid.pool());
   return true;
 }
 
 /// Backtracking to a sufficient decrease of the energy (Armijo 1966), up to its rounding.
-bool Equilibrium::search_line(const NodeField& dx, const NodeField& f, NodeField& x) const {
+bool Equilibrium::search_line(ThreadPool& pool, const NodeField& dx, const NodeField& f,
+                              ElasticResponse& elastic, NodeField& x) const {
   const double slope = -f.cwiseProduct(dx).sum();
-  const double before = energy(x);
+  const double before = energy(elastic, x);
   const double size = std::abs(before) + kNegligibleForce * force_unit_ * model_.mesh().block_size().mean();
   for (double length = 1.0; length > 1e-4; length *= 0.5) {
     const NodeField moved = x + length * dx;
-    if (!(energy(moved) <= before + 1e-4 * length * slope + 1e-12 * size)) continue;
+    ElasticResponse there = model_.respond(moved, &pool);
+    if (!(energy(there, moved) <= before + 1e-4 * length * slope + 1e-12 * size)) continue;
     x = moved;
+    elastic = std::move(there);
     return true;
   }
   return false;

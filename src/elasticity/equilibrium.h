@@ -19,13 +19,14 @@ class Equilibrium {
                            int max_newton) const;
 
  private:
-  double energy(const NodeField& x) const;     // J
-  NodeField forces(const NodeField& x) const;  // N, also on held nodes
+  double energy(const ElasticResponse& elastic, const NodeField& x) const;     // J
+  NodeField forces(const ElasticResponse& elastic, const NodeField& x) const;  // N, also on held nodes
   double load(const NodeField& forces) const;  // N, size of what acts on the tissue
   double rounding(const NodeField& x) const;   // N, of a sum of forces at x
   bool newton_step(Multigrid& multigrid, const SolverOptions& options, double tolerance,
-                   const NodeField& forces, NodeField& x, SolveReport& total) const;
-  bool search_line(const NodeField& dx, const NodeField& forces, NodeField& x) const;
+                   const NodeField& forces, ElasticResponse& elastic, NodeField& x, SolveReport& total) const;
+  bool search_line(ThreadPool& pool, const NodeField& dx, const NodeField& forces, ElasticResponse& elastic,
+                   NodeField& x) const;
   void find_floating_nodes();
   void clear_held(NodeField& field) const;
 

@@ -13,20 +13,22 @@ Integrator::~Integrator() = default;
 
 SolveReport Integrator::step(const ElasticModel& model, ElasticState& state, double dt, const Vec3& gravity,
                              const HeldNodes& held, const std::vector<PointConstraint>& constraints) {
+  ElasticResponse elastic = model.respond(state.x, &workspace_->pool);
   const double inertia = 1.0 / (dt * dt) + options_.rayleigh_mass / dt;
-  const LinearSystem system(workspace_->multigrid, model, model.rotations(state.x),
+  const LinearSystem system(workspace_->multigrid, model, std::move(elastic.rotations),
                             {inertia * model.mass(), 1.0 + options_.rayleigh_stiffness / dt, &constraints},
                             held.nodes, precision_for(options_.tolerance));
 
   NodeField b =
-      model.forces(state.x) + state.v * (model.mass() / dt).asDiagonal() + gravity * model.mass().transpose();
+      elastic.forces + state.v * (model.mass() / dt).asDiagonal() + gravity * model.mass().transpose();
   add_constraint_forces(constraints, state.x, b);
   NodeField dx = dt * state.v;
   for (std::size_t i = 0; i < held.nodes.size(); ++i)
     dx.col(held.nodes[i]) = held.positions[i] - state.x.col(held.nodes[i]);
 
-  const SolveReport report =
+  SolveReport report =
       solve(system, b, dx, options_.tolerance, options_.max_iterations, model.mesh().block_size().mean());
+  report.inverted_elements = elastic.inverted;
   state.x += dx;
   state.v = dx / dt;
   return report;

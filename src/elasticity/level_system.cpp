@@ -8,8 +8,8 @@ namespace {
 
 /// The smoother damps the eigenvalues from a part of the largest one to that, by a Chebyshev polynomial of
 /// this degree.
-constexpr int kDegree = 2;
-constexpr double kSmoothedPart = 0.2;
+constexpr int kDegree = 3;
+constexpr double kSmoothedPart = 0.05;
 constexpr double kSafety = 1.1;
 constexpr int kPowerIterations = 10;
 
@@ -39,17 +39,20 @@ void LevelSystem::arrange(ElementSet elements, std::vector<char> held) {
   constraints_.clear();
   product_.arrange(std::move(elements));
   diagonal_at_rest_ = product_.diagonal_at_rest();
-  invert_diagonal();
+  invert_at_rest();
+  turn_inverses();
   largest_ = kSafety * largest_eigenvalue();
 }
 
 void LevelSystem::set(std::vector<Mat3> rotations, Eigen::VectorXf node_diagonal, float stiffness_factor,
                       std::vector<ConstraintRow> constraints) {
   product_.rotate(std::move(rotations));
+  constraints_ = std::move(constraints);
+  const bool same = stiffness_factor == stiffness_factor_ && node_diagonal == node_diagonal_;
   node_diagonal_ = std::move(node_diagonal);
   stiffness_factor_ = stiffness_factor;
-  constraints_ = std::move(constraints);
-  invert_diagonal();
+  if (!same) invert_at_rest();
+  turn_inverses();
   prepare_constraints();
 }
 
@@ -73,15 +76,28 @@ float LevelSystem::mean_stiffness() const {
   return static_cast<float>(trace / (3.0 * diagonal_at_rest_.size()));
 }
 
-/// A node's block turns with the first element there: a preconditioner needs no more.
-void LevelSystem::invert_diagonal() {
-  inverse_.assign(held_.size(), Eigen::Matrix3f::Zero());
-  for (std::size_t n = 0; n < held_.size(); ++n) {
-    if (held_[n]) continue;
+template <typename Work>
+void LevelSystem::for_nodes(const Work& work) const {
+  product_.pool().for_range(static_cast<int>(held_.size()), ElementBatches::kFewest, [&](int begin, int end) {
+    for (int n = begin; n < end; ++n) work(n);
+  });
+}
+
+void LevelSystem::invert_at_rest() {
+  inverse_at_rest_.assign(held_.size(), Eigen::Matrix3f::Zero());
+  for_nodes([&](int n) {
     const Mat3 block = stiffness_factor_ * diagonal_at_rest_[n] + node_diagonal_[n] * Mat3::Identity();
-    const Mat3& R = product_.rotation_at(static_cast<int>(n));
-    inverse_[n] = (R * inverse_or_zero(block) * R.transpose()).cast<float>();
-  }
+    if (!held_[n]) inverse_at_rest_[n] = inverse_or_zero(block).cast<float>();
+  });
+}
+
+/// A node's block turns with the first element there: a preconditioner needs no more.
+void LevelSystem::turn_inverses() {
+  inverse_.resize(held_.size());
+  for_nodes([&](int n) {
+    const Eigen::Matrix3f R = product_.rotation_at(n).cast<float>();
+    inverse_[n].noalias() = R * inverse_at_rest_[n] * R.transpose();
+  });
 }
 
 void LevelSystem::prepare_constraints() {
@@ -110,34 +126,40 @@ void LevelSystem::prepare_constraints() {
 
 void LevelSystem::apply(const SingleField& p, SingleField& y) const {
   product_.apply(p, y);
-  for (Eigen::Index n = 0; n < p.cols(); ++n)
-    y.col(n) = stiffness_factor_ * y.col(n) + node_diagonal_[n] * p.col(n);
-  add_constraints(p, y);
+  for_nodes([&](int n) { y.col(n) = stiffness_factor_ * y.col(n) + node_diagonal_[n] * p.col(n); });
+  add_constraints(p, 1.0f, y);
 }
 
-void LevelSystem::add_constraints(const SingleField& p, SingleField& y) const {
+void LevelSystem::add_constraints(const SingleField& p, float factor, SingleField& y) const {
   for (const ConstraintRow& row : constraints_) {
     const ElementNodes& nodes = product_.elements().nodes[row.element];
     Eigen::Vector3f at = Eigen::Vector3f::Zero();
     for (int n = 0; n < 8; ++n) at += row.weights[n] * p.col(nodes[n]);
-    const Eigen::Vector3f force = row.stiffness * row.direction.dot(at) * row.direction;
+    const Eigen::Vector3f force = factor * row.stiffness * row.direction.dot(at) * row.direction;
     for (int n = 0; n < 8; ++n) y.col(nodes[n]) += row.weights[n] * force;
   }
 }
 
-/// z = factor M⁻¹ r with M the nodes' blocks and the constraints, which are stiff and few (Woodbury's
-/// formula).
+/// z = factor M⁻¹ r with M the nodes' blocks and the constraints.
 void LevelSystem::scale(const SingleField& r, float factor, SingleField& z) const {
   z.resize(3, r.cols());
-  for (Eigen::Index n = 0; n < r.cols(); ++n) z.col(n).noalias() = factor * (inverse_[n] * r.col(n));
+  for_nodes([&](int n) { z.col(n).noalias() = factor * (inverse_[n] * r.col(n)); });
+  correct_for_constraints(r, factor, z);
+}
+
+/// What constraints, which are stiff and few, change in factor M⁻¹ r (Woodbury's formula).
+void LevelSystem::correct_for_constraints(const SingleField& r, float factor, SingleField& z) const {
   if (constraints_.empty()) return;
   const auto& nodes = product_.elements().nodes;
   Eigen::VectorXf along(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const ConstraintRow& row = constraints_[i];
     Eigen::Vector3f at = Eigen::Vector3f::Zero();
-    for (int n = 0; n < 8; ++n) at += row.weights[n] * z.col(nodes[row.element][n]);
-    along[i] = row.direction.dot(at);
+    for (int n = 0; n < 8; ++n) {
+      const int node = nodes[row.element][n];
+      at += row.weights[n] * (inverse_[node] * r.col(node));
+    }
+    along[i] = factor * row.direction.dot(at);
   }
   along = compliance_.solve(along).eval();
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
@@ -149,25 +171,28 @@ void LevelSystem::scale(const SingleField& r, float factor, SingleField& z) cons
   }
 }
 
-/// Chebyshev's iteration (Saad 2003, algorithm 12.1) from x with residual r; r goes along to the end if
-/// wanted.
+/// Chebyshev's iteration (Saad 2003, algorithm 12.1) from x with residual r; r goes along to the end if wanted.
 void LevelSystem::polish(SingleField& x, SingleField& r, bool residual_wanted) const {
-  const float centre = static_cast<float>(0.5 * largest_ * (1.0 + kSmoothedPart));
-  const float half_width = static_cast<float>(0.5 * largest_ * (1.0 - kSmoothedPart));
+  const auto centre = static_cast<float>(0.5 * largest_ * (1.0 + kSmoothedPart));
+  const auto half_width = static_cast<float>(0.5 * largest_ * (1.0 - kSmoothedPart));
   const float sigma = centre / half_width;
   float rho = 1.0f / sigma;
   scale(r, 1.0f / centre, step_);
-  for (int k = 1;; ++k) {
-    x += step_;
-    if (k == kDegree && !residual_wanted) return;
-    apply(step_, change_);
-    r -= change_;
-    if (k == kDegree) return;
+  for (int k = 1; k < kDegree || residual_wanted; ++k) {
     const float next = 1.0f / (2.0f * sigma - rho);
-    scale(r, 2.0f * next / half_width, scaled_);
-    step_ = next * rho * step_ + scaled_;
+    const float keep = k < kDegree ? next * rho : 0.0f, add = k < kDegree ? 2.0f * next / half_width : 0.0f;
+    product_.apply(step_, change_);
+    add_constraints(step_, 1.0f / stiffness_factor_, change_);
+    for_nodes([&](int n) {
+      x.col(n) += step_.col(n);
+      r.col(n) -= stiffness_factor_ * change_.col(n) + node_diagonal_[n] * step_.col(n);
+      step_.col(n) = keep * step_.col(n) + add * (inverse_[n] * r.col(n));
+    });
+    if (k == kDegree) return;
+    correct_for_constraints(r, add, step_);
     rho = next;
   }
+  for_nodes([&](int n) { x.col(n) += step_.col(n); });
 }
 
 void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const {
@@ -177,7 +202,7 @@ void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleF
 }
 
 void LevelSystem::smooth(const SingleField& b, SingleField& x) const {
-  SingleField r;
+  SingleField& r = residual_;
   apply(x, r);
   r = b - r;
   polish(x, r, false);

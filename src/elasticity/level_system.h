@@ -50,10 +50,14 @@ class LevelSystem {
   void solve(const SingleField& b, SingleField& x) const;
 
  private:
+  template <typename Work>
+  void for_nodes(const Work& work) const;
   void scale(const SingleField& r, float factor, SingleField& z) const;
-  void add_constraints(const SingleField& p, SingleField& y) const;
+  void correct_for_constraints(const SingleField& r, float factor, SingleField& z) const;
+  void add_constraints(const SingleField& p, float factor, SingleField& y) const;
   void prepare_constraints();
-  void invert_diagonal();
+  void invert_at_rest();
+  void turn_inverses();
   void polish(SingleField& x, SingleField& r, bool residual_wanted) const;
   double largest_eigenvalue() const;
 
@@ -64,10 +68,10 @@ class LevelSystem {
   Eigen::VectorXf node_diagonal_;
   float stiffness_factor_ = 1.0f;
   std::vector<ConstraintRow> constraints_;
-  std::vector<Eigen::Matrix3f> inverse_;     // m/N; zero for held nodes
+  std::vector<Eigen::Matrix3f> inverse_at_rest_, inverse_;  // m/N, of nodes' blocks; zero for held nodes
   Eigen::LDLT<Eigen::MatrixXf> compliance_;  // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
   Eigen::LLT<Eigen::MatrixXf> factors_;
-  mutable SingleField step_, change_, scaled_;  // scratch
+  mutable SingleField step_, change_, residual_;  // scratch
 };
 
 }  // namespace cfem_cutting

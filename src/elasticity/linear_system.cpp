@@ -1,7 +1,9 @@
 #include "linear_system.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace cfem_cutting {
 namespace {
@@ -32,36 +34,46 @@ double free_load(const LinearSystem& system, const NodeField& b, const NodeField
   return load.norm();
 }
 
-double dot(const SingleField& a, const SingleField& b) {
-  double sum = 0.0;
-  for (Eigen::Index n = 0; n < a.cols(); ++n) sum += a.col(n).dot(b.col(n));
-  return sum;
+/// Σ term(n) over nodes in parts of fixed size, so that the sum is the same for any number of threads.
+template <typename Term>
+double sum_over_nodes(ThreadPool& pool, int count, const Term& term) {
+  constexpr int kPart = 1024;
+  std::vector<double> sums(count / kPart + 1, 0.0);
+  pool.for_range(static_cast<int>(sums.size()), 4, [&](int begin, int end) {
+    for (int part = begin; part < end; ++part)
+      for (int n = part * kPart; n < std::min(count, (part + 1) * kPart); ++n) sums[part] += term(n);
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 /// x ≈ A⁻¹ r by conjugate gradients until the residual, which r becomes, is `goal` at most.
 /// @return the iterations
 int conjugate_gradients(const LinearSystem& system, SingleField& r, SingleField& x, double goal,
                         int max_iterations) {
-  SingleField z, p, Ap;
-  x = SingleField::Zero(3, r.cols());
-  system.multigrid().precondition(r, z);
-  p = z;
-  double rz = dot(r, z);
+  const Multigrid& multigrid = system.multigrid();
+  const int count = static_cast<int>(r.cols());
+  const auto sum = [&](const auto& term) { return sum_over_nodes(multigrid.pool(), count, term); };
+  SingleField z, p = SingleField::Zero(3, count), Ap;
+  x = SingleField::Zero(3, count);
+  double rz = 1.0;
+  double size = std::sqrt(sum([&](int n) { return r.col(n).squaredNorm(); }));
   int iteration = 0;
-  while (iteration < max_iterations && std::sqrt(dot(r, r)) > goal) {
-    system.multigrid().finest().apply(p, Ap);
+  for (; iteration < max_iterations && size > goal; ++iteration) {
+    multigrid.precondition(r, z);
+    const double next_rz = sum([&](int n) { return r.col(n).dot(z.col(n)); });
+    const auto keep = static_cast<float>(iteration > 0 ? next_rz / rz : 0.0);
+    rz = next_rz;
+    p = z + keep * p;
+    multigrid.finest().apply(p, Ap);
     system.clear_held(Ap);
-    const double curvature = dot(p, Ap);
+    const double curvature = sum([&](int n) { return p.col(n).dot(Ap.col(n)); });
     if (!(curvature > 0.0)) break;
     const auto length = static_cast<float>(rz / curvature);
-    x += length * p;
-    r -= length * Ap;
-    ++iteration;
-    if (!(std::sqrt(dot(r, r)) > goal)) break;
-    system.multigrid().precondition(r, z);
-    const double next_rz = dot(r, z);
-    p = z + static_cast<float>(next_rz / rz) * p;
-    rz = next_rz;
+    size = std::sqrt(sum([&](int n) {
+      x.col(n) += length * p.col(n);
+      r.col(n) -= length * Ap.col(n);
+      return r.col(n).squaredNorm();
+    }));
   }
   return iteration;
 }

@@ -8,18 +8,6 @@ namespace {
 constexpr int kCoarsestNodes = 80;  // few enough for a dense solve
 constexpr std::size_t kMostLevels = 12;
 
-ElementSet elements_of(const ElasticModel& model) {
-  ElementSet set;
-  const auto& elements = model.mesh().elements();
-  set.node_count = model.mesh().node_count();
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    set.block.push_back(elements[e].block);
-    set.nodes.push_back(elements[e].nodes);
-    set.stiffness.push_back(model.shared_stiffness(static_cast<int>(e)));
-  }
-  return set;
-}
-
 std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constraints) {
   std::vector<ConstraintRow> rows;
   for (const PointConstraint& c : constraints) {
@@ -53,7 +41,7 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
   std::vector<char> flags(model.mesh().node_count(), 0);
   for (int node : held) flags[node] = 1;
   levels_.clear();
-  add_level(elements_of(model), std::move(flags));
+  add_level(model.element_set(), std::move(flags));
   while (levels_.size() < kMostLevels &&
          levels_.back().system.product().elements().node_count > kCoarsestNodes) {
     Level& fine = levels_.back();
@@ -122,9 +110,9 @@ void Multigrid::cycle(std::size_t l, const SingleField& b, SingleField& x) const
   const Level& level = levels_[l];
   if (l + 1 == levels_.size()) return level.system.solve(b, x);
   level.system.smooth_from_zero(b, x, level.residual);
-  level.restriction.apply(level.residual, level.coarse_load);
+  level.restriction.apply(pool_, level.residual, level.coarse_load);
   cycle(l + 1, level.coarse_load, level.coarse_x);
-  level.interpolation.add(level.coarse_x, x);
+  level.interpolation.add(pool_, level.coarse_x, x);
   level.system.smooth(b, x);
 }
 

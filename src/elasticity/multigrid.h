@@ -30,6 +30,7 @@ class Multigrid {
   /// Takes over rotations and values.
   void set(std::vector<Mat3> rotations, const SystemValues& values);
 
+  ThreadPool& pool() const { return pool_; }
   const LevelSystem& finest() const { return levels_.front().system; }
 
   /// z = one V-cycle for A z = r

@@ -137,7 +137,7 @@ void Simulation::State::solve(StepReport& report) {
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   report.converged = solved.converged;
-  report.inverted_elements = model.inverted_elements();
+  report.inverted_elements = solved.inverted_elements;
 }
 
 }  // namespace cfem_cutting

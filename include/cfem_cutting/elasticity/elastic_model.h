@@ -14,6 +14,17 @@ enum class Kinematics { kCorotational, kLinear };
 
 using ElementMatrix = Eigen::Matrix<double, 24, 24>;  ///< N/m; row 3n + axis
 
+struct ElementSet;
+class ThreadPool;
+
+/// What elements answer at node positions x. Per element E = ½ uᵀ K u with u = Rᵀx − X.
+struct ElasticResponse {
+  double energy = 0.0;          ///< J
+  NodeField forces;             ///< N, −∂energy/∂x: the true gradient, with ∂R/∂x
+  std::vector<Mat3> rotations;  ///< of the elements (identity for linear kinematics)
+  int inverted = 0;             ///< elements flat or inverted
+};
+
 /// Stiffness, mass and forces of a composite mesh. Rest matrices are shared between equal elements and kept
 /// from one mesh to the next for elements that a cut did not touch.
 class ElasticModel {
@@ -32,26 +43,20 @@ class ElasticModel {
   double total_mass() const { return mass_.sum(); }
   double voxel_mass(int voxel) const { return voxel_mass_[voxel]; }
 
-  /// Elastic energy at node positions x, J: Σ ½ uᵀ K u with u = Rᵀx − X per element.
-  double energy(const NodeField& x) const;
-
-  /// Elastic forces on the nodes, −∂energy/∂x, N: the true gradient, with ∂R/∂x.
-  NodeField forces(const NodeField& x) const;
-
-  /// Rotations of the elements at x (identity for linear kinematics).
-  std::vector<Mat3> rotations(const NodeField& x) const;
+  /// @param pool to work on several threads
+  ElasticResponse respond(const NodeField& x, ThreadPool* pool = nullptr) const;
+  double energy(const NodeField& x) const { return respond(x).energy; }
+  NodeField forces(const NodeField& x) const { return respond(x).forces; }
+  std::vector<Mat3> rotations(const NodeField& x) const { return respond(x).rotations; }
 
   /// Stiffness matrix of an element at rest, N/m.
-  const ElementMatrix& stiffness(int element) const { return *shared_stiffness(element); }
+  const ElementMatrix& stiffness(int element) const;
 
-  /// The same as an object that equal elements share and that outlives updates.
-  std::shared_ptr<const ElementMatrix> shared_stiffness(int element) const;
+  /// Elements with their nodes and matrices, for solvers.
+  const ElementSet& element_set() const;
 
   /// Differs between any two states of any models in this process: changes with each update.
   std::uint64_t version() const { return version_; }
-
-  /// Elements flat or inverted when rotations were computed last.
-  int inverted_elements() const;
 
  private:
   struct Matrices;

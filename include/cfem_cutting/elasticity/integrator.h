@@ -45,6 +45,7 @@ struct SolveReport {
   int iterations = 0;     ///< of conjugate gradients, summed
   double residual = 0.0;  ///< relative, of the last linear solve
   bool converged = true;
+  int inverted_elements = 0;  ///< flat or inverted elements where the last tangent was taken
 };
 
 /// Time integration and equilibrium of an elastic model.

@@ -1,0 +1,132 @@
+#include "corotation.h"
+
+#include <algorithm>
+
+#include "corotation_kernel.h"
+#include "rotation.h"
+
+namespace cfem_cutting {
+namespace {
+
+using Positions = Eigen::Matrix<double, 3, 8>;  // m
+
+/// Positions of an element's nodes relative to its first node: keeps rigid motion free of rounding at large
+/// coordinates.
+Positions local_positions(const ElementNodes& nodes, const NodeField& x) {
+  Positions local;
+  for (int n = 0; n < 8; ++n) local.col(n) = x.col(nodes[n]) - x.col(nodes[0]);
+  return local;
+}
+
+Positions rest_positions(const Vec3& block_size) {
+  Positions rest;
+  for (int n = 0; n < 8; ++n) rest.col(n) = corner_bits(n).cast<double>().cwiseProduct(block_size);
+  return rest;
+}
+
+/// Nodal forces on the co-rotated element, K u.
+Positions rest_frame_forces(const ElementMatrix& K, const Positions& displacement) {
+  Positions forces;
+  Eigen::Map<Eigen::Matrix<double, 24, 1>>(forces.data()).noalias() =
+      K * Eigen::Map<const Eigen::Matrix<double, 24, 1>>(displacement.data());
+  return forces;
+}
+
+}  // namespace
+
+/// Answers of all lanes.
+struct Corotation::Lanes {
+  explicit Lanes(std::size_t batches)
+      : forces(batches * ElementBatches::kEntries),
+        rotations(batches * 9 * kLanes),
+        energy(batches * kLanes),
+        inverted(batches, 0) {}
+  std::vector<double> forces, rotations, energy;
+  std::vector<int> inverted;  // per batch
+};
+
+Corotation::Corotation(ElementSet elements, std::vector<const MeanGradient*> gradients, const Vec3& block_size,
+                       Kinematics kinematics)
+    : elements_(std::move(elements)),
+      gradient_(std::move(gradients)),
+      block_size_(block_size),
+      kinematics_(kinematics),
+      batches_(elements_) {
+  packed_gradient_.assign(static_cast<std::size_t>(batches_.size()) * ElementBatches::kEntries, 0.0);
+  packed_stiffness_.reserve(static_cast<std::size_t>(batches_.size()) * kLanes);
+  for (int b = 0; b < batches_.size(); ++b) {
+    const ElementBatches::Batch& batch = batches_.batches[b];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int e = batches_.element_of_lane[batch.first + std::min(lane, batch.count - 1)];
+      packed_stiffness_.push_back(elements_.stiffness[e]->data());
+      for (int i = 0; i < 24; ++i)
+        packed_gradient_[static_cast<std::size_t>(b) * ElementBatches::kEntries + i * kLanes + lane] =
+            gradient_[e]->data()[i];
+    }
+  }
+}
+
+ElasticResponse Corotation::respond(const NodeField& x, ThreadPool& pool) const {
+  Lanes lanes(batches_.size());
+  batches_.for_each(pool, [&](int b) { respond_batch(b, x, lanes); });
+  ElasticResponse response;
+  batches_.add_up(pool, lanes.forces, response.forces);
+  response.rotations.resize(elements_.size());
+  for (int b = 0; b < batches_.size(); ++b) {
+    const ElementBatches::Batch& batch = batches_.batches[b];
+    response.inverted += lanes.inverted[b];
+    for (int lane = 0; lane < batch.count; ++lane) {
+      response.energy += lanes.energy[b * kLanes + lane];
+      Mat3& R = response.rotations[batches_.element_of_lane[batch.first + lane]];
+      for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = lanes.rotations[(b * 9 + i) * kLanes + lane];
+    }
+  }
+  return response;
+}
+
+void Corotation::respond_batch(int b, const NodeField& x, Lanes& lanes) const {
+  const ElementBatches::Batch& batch = batches_.batches[b];
+  const auto at = static_cast<std::size_t>(b);
+  double* forces = lanes.forces.data() + at * ElementBatches::kEntries;
+  double* rotations = lanes.rotations.data() + at * 9 * kLanes;
+  double* energy = lanes.energy.data() + at * kLanes;
+  bool regular[kLanes] = {};
+  if (kinematics_ == Kinematics::kCorotational)
+    cfem_cutting::respond({x.data(), batches_.nodes_of(b), packed_gradient_.data() + at * ElementBatches::kEntries,
+                           block_size_.data(), packed_stiffness_.data() + at * kLanes, batch.shared, forces,
+                           rotations, energy, regular});
+  for (int lane = 0; lane < batch.count; ++lane)
+    if (!regular[lane])
+      lanes.inverted[b] += respond_singly(batches_.element_of_lane[batch.first + lane], x, forces + lane,
+                                          rotations + lane, energy[lane]);
+}
+
+/// With y = Rᵀx, f = K(y − X): dE = f·Rᵀdx + f·dRᵀx, dR = R[ω]×, hence f·dRᵀx = −ω·t with t = Σ yₙ × fₙ.
+/// The skew part of RᵀdF = d(RᵀF) + [ω]×S gives (tr(S) I − S) ω = Σ gₙ × Rᵀdxₙ for S = RᵀF, F = Σ xₙ gₙᵀ.
+/// So ∂E/∂xₙ = R (fₙ − q × gₙ) with (tr(S) I − S) q = t.
+/// @return whether the element is flat or inverted
+bool Corotation::respond_singly(int element, const NodeField& x, double* entries, double* rotation,
+                                double& energy) const {
+  const Positions local = local_positions(elements_.nodes[element], x);
+  const MeanGradient& g = *gradient_[element];
+  const bool turns = kinematics_ == Kinematics::kCorotational;
+  const PolarRotation polar =
+      turns ? polar_rotation(local * g.transpose()) : PolarRotation{Mat3::Identity(), false};
+  const Mat3& R = polar.R;
+  const Positions y = R.transpose() * local;
+  const Positions u = y - rest_positions(block_size_);
+  Positions f = rest_frame_forces(*elements_.stiffness[element], u);
+  energy = 0.5 * u.cwiseProduct(f).sum();
+  if (turns) {
+    Vec3 torque = Vec3::Zero();
+    for (int n = 0; n < 8; ++n) torque += y.col(n).cross(f.col(n));
+    const Vec3 q = solve_spin(y * g.transpose(), torque);
+    for (int n = 0; n < 8; ++n) f.col(n) -= q.cross(Vec3(g.col(n)));
+  }
+  const Positions forces = -R * f;
+  for (int i = 0; i < 24; ++i) entries[i * kLanes] = forces.data()[i];
+  for (int i = 0; i < 9; ++i) rotation[i * kLanes] = R(i / 3, i % 3);
+  return polar.inverted;
+}
+
+}  // namespace cfem_cutting

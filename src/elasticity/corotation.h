@@ -1,0 +1,36 @@
+#pragma once
+
+#include "element_batches.h"
+#include "element_matrix.h"
+
+namespace cfem_cutting {
+
+/// Evaluates co-rotational (or linear) elements: batches of SIMD lanes, and one by one those that are flat or
+/// inverted. Per element E = ½ uᵀ K u with u = Rᵀx − X; forces are −∂E/∂x with ∂R/∂x.
+class Corotation {
+ public:
+  Corotation() = default;
+  /// @param gradients of the elements, see ElementData; must outlive this
+  Corotation(ElementSet elements, std::vector<const MeanGradient*> gradients, const Vec3& block_size,
+             Kinematics kinematics);
+
+  const ElementSet& elements() const { return elements_; }
+
+  ElasticResponse respond(const NodeField& x, ThreadPool& pool) const;
+
+ private:
+  struct Lanes;
+  void respond_batch(int batch, const NodeField& x, Lanes& lanes) const;
+  bool respond_singly(int element, const NodeField& x, double* entries, double* rotation,
+                      double& energy) const;
+
+  ElementSet elements_;
+  std::vector<const MeanGradient*> gradient_;
+  Vec3 block_size_ = Vec3::Zero();
+  Kinematics kinematics_ = Kinematics::kCorotational;
+  ElementBatches batches_;
+  std::vector<double> packed_gradient_;     // (|batches| × 24 × lanes)
+  std::vector<const double*> packed_stiffness_;  // (|batches| × lanes)
+};
+
+}  // namespace cfem_cutting

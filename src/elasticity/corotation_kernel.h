@@ -1,0 +1,27 @@
+#pragma once
+
+#include "element_kernel.h"
+
+namespace cfem_cutting {
+
+/// What a batch of co-rotational elements answers at node positions x. Arrays are lane-major: entry i of lane
+/// l at [16 i + l]. Let g be the mean gradients of the shape functions, F = Σ xₙ gₙᵀ, R its rotation and
+/// u = Rᵀx − X.
+struct CorotationBatch {
+  const double* x;                  ///< (3 × |nodes|), m
+  const int* nodes;                 ///< (8 × 16)
+  const double* gradient;           ///< (24 × 16), 1/m; entry 3 n + axis
+  const double* block_size;         ///< (3), m
+  const double* const* stiffness;   ///< (16): each (24 × 24), N/m, column by column
+  bool shared;                      ///< all lanes have the first one
+  double* forces;                   ///< (24 × 16), N: −∂energy/∂x
+  double* rotations;                ///< (9 × 16), R row by row
+  double* energy;                   ///< (16), J: ½ uᵀ K u
+  bool* regular;                    ///< (16): false where the element is flat, inverted or nearly so: no answer
+};
+
+/// Answers with the widest instructions that this processor has. Rotations come by Newton's iteration (Higham
+/// 1986), forces are the true gradient of the energy.
+void respond(const CorotationBatch& batch);
+
+}  // namespace cfem_cutting
