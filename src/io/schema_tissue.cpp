@@ -96,8 +96,8 @@ Fields<TissueConfig> tissue_fields() {
           "tf frame of the tissue's rest shape."),
       field<T>(
           "source", "", filled_text(), [](T & t) -> auto& { return t.source; },
-          "`box`, a closed mesh (.stl, .obj, .ply, .off) or a label volume (.inr, .inr.gz, .nrrd): "
-          "package://, file:// or a path."),
+          "`box`, a closed mesh (.stl, .obj, .ply, .off) or a label volume (.inr, .inr.gz, .nrrd, .nii, "
+          ".nii.gz, .mha, .mhd): package://, file:// or a path."),
       field<T>(
           "box_size", "m", positive_vector(), [](T & t) -> auto& { return t.box_size; },
           "For the source box, whose lower corner is the tissue frame's origin."),
