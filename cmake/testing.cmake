@@ -47,3 +47,6 @@ set_tests_properties(replay PROPERTIES TIMEOUT 600)
 # The installed core serves a project without ROS.
 add_test(NAME install COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_BINARY_DIR}
   -P ${CMAKE_CURRENT_SOURCE_DIR}/test/install/install_test.cmake)
+
+add_test(NAME scripts.make_tissue COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/test/scripts/make_tissue_test.py $<TARGET_FILE:replay> ${CMAKE_CURRENT_SOURCE_DIR})

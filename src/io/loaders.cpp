@@ -41,10 +41,12 @@ std::string read_text(const std::string& path) {
 std::unique_ptr<Shape> load_shape(const TissueConfig& tissue, const PathResolver& resolve) {
   const Pose X_TS = placement(tissue);
   if (tissue.source == "box") return make_box(tissue.box_size, X_TS);
-  const bool is_image = ends_with_any(tissue.source, {".inr", ".inr.gz", ".nrrd"});
+  const bool is_image =
+      ends_with_any(tissue.source, {".inr", ".inr.gz", ".nrrd", ".nii", ".nii.gz", ".mha", ".mhd"});
   if (!is_image && !ends_with_any(tissue.source, {".stl", ".obj", ".ply", ".off"}))
-    throw FileError("tissue.source: " + tissue.source +
-                    ": must be box or end in .stl, .obj, .ply, .off, .inr, .inr.gz or .nrrd");
+    throw FileError(
+        "tissue.source: " + tissue.source +
+        ": must be box or end in .stl, .obj, .ply, .off, .inr, .inr.gz, .nrrd, .nii, .nii.gz, .mha or .mhd");
   const std::string path = resolve(tissue.source);
   check_readable(path);
   if (is_image) return make_label_shape(read_label_image(path), tissue.labels, X_TS, path);

@@ -159,10 +159,8 @@ const Fields<Config>& config_fields() {
         all, "blade", blade_fields(), [](Config & c) -> auto& { return c.simulation.blade; });
     add_section(
         all, "fracture", fracture_fields(), [](Config & c) -> auto& { return c.simulation.fracture; });
-    all.push_back(field<Config>(
-        "surface.influence_domain_adaptation", "", true_or_false(),
-        [](Config & c) -> auto& { return c.simulation.surface.influence_domain_adaptation; },
-        "Draw the surface exactly on the blade's edge."));
+    add_section(
+        all, "surface", surface_fields(), [](Config & c) -> auto& { return c.simulation.surface; });
     add_section(
         all, "solver", solver_fields(), [](Config & c) -> auto& { return c.simulation.dynamics; });
     all.push_back(field<Config>(

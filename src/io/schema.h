@@ -8,6 +8,7 @@ namespace cfem_cutting {
 Fields<TissueConfig> tissue_fields();
 Fields<BladeConfig> blade_fields();
 Fields<FractureOptions> fracture_fields();
+Fields<SurfaceConfig> surface_fields();
 Fields<DynamicsConfig> solver_fields();
 Fields<NodeConfig> node_fields();
 

@@ -75,12 +75,6 @@ Field<TissueConfig> voxel_size_field() {
           {}};
 }
 
-const Rule<std::vector<int>> kLabels{"a list of integers from 0 to 255, not empty",
-                                     [](const std::vector<int>& labels) {
-                                       for (int label : labels)
-                                         if (label < 0 || label > 255) return false;
-                                       return !labels.empty();
-                                     }};
 const Rule<std::vector<Material>> kMaterials{"a list of mappings, not empty",
                                              [](const std::vector<Material>& m) { return !m.empty(); }};
 const Rule<std::vector<GripConfig>> kGrips{"a list of mappings",
@@ -96,8 +90,8 @@ Fields<TissueConfig> tissue_fields() {
           "tf frame of the tissue's rest shape."),
       field<T>(
           "source", "", filled_text(), [](T & t) -> auto& { return t.source; },
-          "`box`, a closed mesh (.stl, .obj, .ply, .off) or a label volume (.inr, .inr.gz, .nrrd): "
-          "package://, file:// or a path."),
+          "`box`, a closed mesh (.stl, .obj, .ply, .off) or a label volume (.inr, .inr.gz, .nrrd, .nii, "
+          ".nii.gz, .mha, .mhd): package://, file:// or a path."),
       field<T>(
           "box_size", "m", positive_vector(), [](T & t) -> auto& { return t.box_size; },
           "For the source box, whose lower corner is the tissue frame's origin."),
@@ -111,7 +105,7 @@ Fields<TissueConfig> tissue_fields() {
           "rpy", "rad", vector(), [](T & t) -> auto& { return t.rpy; },
           "Turn of the source about the fixed axes x, y, z, as in URDF."),
       field<T>(
-          "labels", "", kLabels, [](T & t) -> auto& { return t.labels; },
+          "labels", "", some_labels(), [](T & t) -> auto& { return t.labels; },
           "Label volumes: which labels are tissue."),
       voxel_size_field(),
       field<T>(

@@ -28,7 +28,7 @@ CuttingNode::CuttingNode(ros::NodeHandle node, ros::NodeHandle private_node)
       private_node_(private_node),
       config_(read_parameters(private_node)),
       step_publisher_(node_, config_.simulation.tissue.frame, tool_frame(config_)),
-      scene_publisher_(node_, config_.simulation.tissue.frame, config_.node.marker_rate),
+      scene_publisher_(node_, config_),
       tracker_(node_, config_),
       loop_(config_, make_simulation(config_.simulation, robot_description(node)), tracker_, step_publisher_,
             scene_publisher_),

@@ -7,8 +7,10 @@
 
 namespace cfem_cutting {
 
-ScenePublisher::ScenePublisher(ros::NodeHandle& node, const std::string& tissue_frame, double rate)
-    : frame_(tissue_frame), period_(1.0 / rate) {
+ScenePublisher::ScenePublisher(ros::NodeHandle& node, const Config& config)
+    : frame_(config.simulation.tissue.frame),
+      look_(config.simulation.surface),
+      period_(1.0 / config.node.marker_rate) {
   const ros::SubscriberStatusCallback greet = [this](const ros::SingleSubscriberPublisher&) {
     new_listener_ = true;
   };
@@ -59,7 +61,7 @@ void ScenePublisher::run() {
 }
 
 void ScenePublisher::publish(const Scene& scene) {
-  if (markers_.getNumSubscribers() > 0) markers_.publish(to_markers(scene, frame_));
+  if (markers_.getNumSubscribers() > 0) markers_.publish(to_markers(scene, frame_, look_));
   if (surface_.getNumSubscribers() > 0) {
     surface_.publish(to_message(scene.surface, scene.offsets, make_header(frame_, scene.time)));
   }

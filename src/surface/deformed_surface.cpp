@@ -19,6 +19,7 @@ void double_rim(const TissueSurface& surface, DeformedSurface& drawn) {
   }
   drawn.triangles = surface.triangles;
   drawn.cut = surface.cut;
+  drawn.label = surface.label;
   for (std::size_t t = 0; t < drawn.triangles.size(); ++t)
     if (drawn.cut[t])
       for (int& v : drawn.triangles[t]) v = of_cut[v];

@@ -54,6 +54,7 @@ void Mesher::build(const Contour& contour) {
   vertex_of_sheet_.assign(contour.cells().size(), none);
   surface_.triangles.reserve(2 * contour.sides().size());
   surface_.cut.reserve(2 * contour.sides().size());
+  surface_.label.reserve(2 * contour.sides().size());
   quads_.reserve(contour.sides().size());
   for (const LinkSide side : contour.sides()) add_polygon(contour, polygon_of(contour, side));
 }
@@ -99,22 +100,18 @@ void Mesher::add_polygon(const Contour& contour, const Polygon& polygon) {
 }
 
 void Mesher::add_quad(const Contour& contour, const Polygon& polygon, const std::vector<int>& corners) {
-  const Voxel& voxel = contour.volume().voxel(polygon.voxel);
-  const bool cut = voxel.link[polygon.direction] == LinkState::kSevered;
   quads_.push_back({{corners[0], corners[1], corners[2], corners[3]},
                     polygon.direction,
                     static_cast<int>(surface_.triangles.size())});
-  for (int i : {1, 2}) add_triangle(corners[0], corners[i], corners[i + 1], polygon.direction, cut);
+  for (int i : {1, 2}) add_triangle(contour, polygon, corners[0], corners[i], corners[i + 1]);
 }
 
 /// Around a vertex of its own where the link meets the surface: positive, as each corner stays in its cell.
 void Mesher::add_fan(const Contour& contour, const Polygon& polygon, const std::vector<int>& rim) {
-  const Voxel& voxel = contour.volume().voxel(polygon.voxel);
   const int centre = add_fixed_vertex(contour.volume().crossing(polygon.voxel, polygon.direction).point,
                                       polygon.voxel, contour.cells()[polygon.cell[0]].index);
-  const bool cut = voxel.link[polygon.direction] == LinkState::kSevered;
   for (std::size_t i = 0; i < rim.size(); ++i)
-    add_triangle(centre, rim[i], rim[(i + 1) % rim.size()], polygon.direction, cut);
+    add_triangle(contour, polygon, centre, rim[i], rim[(i + 1) % rim.size()]);
 }
 
 int Mesher::sheet_vertex(const Contour& contour, int cell, int sheet) {
@@ -152,9 +149,13 @@ int Mesher::add_fixed_vertex(const Vec3& X, int voxel, const Vec3i& cell) {
   return static_cast<int>(surface_.vertices.size()) - 1;
 }
 
-void Mesher::add_triangle(int a, int b, int c, int direction, bool cut) {
-  surface_.triangles.push_back(direction % 2 ? std::array<int, 3>{a, b, c} : std::array<int, 3>{a, c, b});
-  surface_.cut.push_back(cut ? 1 : 0);
+/// @param a, b, c counter-clockwise about the axis of the polygon's link
+void Mesher::add_triangle(const Contour& contour, const Polygon& polygon, int a, int b, int c) {
+  const Voxel& voxel = contour.volume().voxel(polygon.voxel);
+  surface_.triangles.push_back(polygon.direction % 2 ? std::array<int, 3>{a, b, c}
+                                                     : std::array<int, 3>{a, c, b});
+  surface_.cut.push_back(voxel.link[polygon.direction] == LinkState::kSevered ? 1 : 0);
+  surface_.label.push_back(static_cast<std::uint8_t>(voxel.label));
 }
 
 void Mesher::place(const Contour& contour, bool all) {

@@ -44,7 +44,7 @@ class Mesher {
   int sheet_vertex(const Contour& contour, int cell, int sheet);
   int midpoint(const Contour& contour, const Polygon& polygon, int i);
   int add_fixed_vertex(const Vec3& X, int voxel, const Vec3i& cell);
-  void add_triangle(int a, int b, int c, int direction, bool cut);
+  void add_triangle(const Contour& contour, const Polygon& polygon, int a, int b, int c);
   void split(const Quad& quad);
   bool prefers_second_diagonal(const Quad& quad) const;
 

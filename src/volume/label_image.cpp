@@ -1,8 +1,11 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 
 #include "cfem_cutting/geometry/errors.h"
 #include "label_image_files.h"
@@ -14,8 +17,7 @@ constexpr std::int64_t kMaxPixels = 4'000'000'000;
 
 /// Unpacks gzip files on the fly.
 std::string read_file(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path))
-    throw FileError("label image '" + path + "': not found; an Inrimage or NRRD file is needed");
+  if (!std::filesystem::is_regular_file(path)) throw FileError("label image '" + path + "': not found");
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
   if (!file) throw FileError("label image '" + path + "': not readable");
   std::string content;
@@ -34,13 +36,29 @@ bool starts_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-std::int64_t decode_pixel(const unsigned char* bytes, const PixelFormat& format) {
+template <typename Real, typename Bits>
+double as_real(std::uint64_t bits) {
+  const Bits low_bits = static_cast<Bits>(bits);
+  Real real;
+  std::memcpy(&real, &low_bits, sizeof(real));
+  return real;
+}
+
+double decode_pixel(const unsigned char* bytes, const PixelFormat& format) {
   std::uint64_t value = 0;
   for (int n = 0; n < format.bytes; ++n)
     value |= std::uint64_t{bytes[format.big_endian ? format.bytes - 1 - n : n]} << (8 * n);
+  if (format.is_real)
+    return format.bytes == 4 ? as_real<float, std::uint32_t>(value) : as_real<double, std::uint64_t>(value);
   const std::uint64_t sign_bit = std::uint64_t{1} << (8 * format.bytes - 1);
-  if (format.is_signed && (value & sign_bit)) return -static_cast<std::int64_t>(2 * sign_bit - value);
-  return static_cast<std::int64_t>(value);
+  if (format.is_signed && (value & sign_bit)) return -static_cast<double>(2 * sign_bit - value);
+  return static_cast<double>(value);
+}
+
+[[noreturn]] void refuse_label(const std::string& path, double label) {
+  std::ostringstream message;
+  message << "label image '" << path << "': label " << label << "; labels must be integers from 0 to 255";
+  throw FileError(message.str());
 }
 
 }  // namespace
@@ -55,10 +73,8 @@ std::vector<std::uint8_t> decode_labels(const std::string& path, const std::stri
   std::vector<std::uint8_t> labels(count);
   const auto* pixel = reinterpret_cast<const unsigned char*>(data.data() + first);
   for (std::size_t n = 0; n < count; ++n, pixel += format.bytes) {
-    const std::int64_t label = decode_pixel(pixel, format);
-    if (label < 0 || label > 255)
-      throw FileError("label image '" + path + "': label " + std::to_string(label) +
-                      "; labels must be 0 to 255");
+    const double label = decode_pixel(pixel, format);
+    if (!(label >= 0.0 && label <= 255.0) || label != std::floor(label)) refuse_label(path, label);
     labels[n] = static_cast<std::uint8_t>(label);
   }
   return labels;
@@ -100,7 +116,9 @@ LabelImage read_label_image(const std::string& path) {
   const std::string content = read_file(path);
   if (starts_with(content, "#INRIMAGE-4")) return read_inrimage(path, content);
   if (starts_with(content, "NRRD")) return read_nrrd(path, content);
-  throw FileError("label image '" + path + "': neither an Inrimage nor an NRRD file");
+  if (is_nifti(content)) return read_nifti(path, content);
+  if (is_meta_image(content)) return read_meta_image(path, content);
+  throw FileError("label image '" + path + "': not an Inrimage, NRRD, NIfTI or MetaImage file");
 }
 
 }  // namespace cfem_cutting

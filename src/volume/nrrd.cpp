@@ -4,17 +4,16 @@
 
 #include "cfem_cutting/geometry/errors.h"
 #include "label_image_files.h"
+#include "text_header.h"
 
 namespace cfem_cutting {
 namespace {
 
 constexpr double kMillimetre = 1e-3;
 
-using Header = std::map<std::string, std::string>;
-
 /// Reads the fields up to the empty line before the data.
-Header parse_header(const std::string& path, const std::string& content, std::size_t& data) {
-  Header header;
+TextHeader parse_header(const std::string& path, const std::string& content, std::size_t& data) {
+  TextHeader header(path, "NRRD");
   std::size_t begin = content.find('\n');
   while (begin != std::string::npos) {
     const std::size_t end = content.find('\n', ++begin);
@@ -27,41 +26,31 @@ Header parse_header(const std::string& path, const std::string& content, std::si
       return header;
     }
     const std::size_t colon = line.find(": ");
-    if (line[0] != '#' && colon != std::string::npos) header[line.substr(0, colon)] = line.substr(colon + 2);
+    if (line[0] != '#' && colon != std::string::npos)
+      header.set(line.substr(0, colon), line.substr(colon + 2));
   }
   throw FileError("label image '" + path + "': truncated, or an NRRD header without attached data");
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& key, const std::string& value,
-                         const std::string& rule) {
-  throw FileError("label image '" + path + "': NRRD field " + key + " is '" + value + "'; " + rule);
-}
-
-Vec3 three_numbers(const std::string& path, Header header, const std::string& key) {
-  std::istringstream text(header[key]);
-  Vec3 numbers;
-  if (!(text >> numbers.x() >> numbers.y() >> numbers.z()))
-    refuse(path, key, header[key], "three numbers are needed");
-  return numbers;
-}
-
-/// Lengths of the three direction vectors, as "(x,y,z) (x,y,z) (x,y,z)".
-Vec3 direction_lengths(const std::string& path, std::string directions) {
-  const std::string given = directions;
+/// Columns: the three direction vectors, given as "(x,y,z) (x,y,z) (x,y,z)".
+Mat3 space_directions(const TextHeader& header) {
+  std::string directions = header.text("space directions");
   std::replace_if(
       directions.begin(), directions.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
   std::istringstream text(directions);
-  Vec3 lengths;
-  for (int axis = 0; axis < 3; ++axis) {
-    Vec3 direction;
-    if (!(text >> direction.x() >> direction.y() >> direction.z()))
-      refuse(path, "space directions", given, "three vectors are needed");
-    lengths[axis] = direction.norm();
-  }
-  return lengths;
+  Mat3 axes;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(text >> axes(0, axis) >> axes(1, axis) >> axes(2, axis)))
+      header.refuse("space directions", "three vectors are needed");
+  return axes;
 }
 
-PixelFormat pixel_format(const std::string& path, Header header) {
+bool left_handed_space(const TextHeader& header) {
+  const std::string space = header.text("space");
+  return space == "left-anterior-superior" || space == "LAS" || space == "3D-left-handed";
+}
+
+PixelFormat pixel_format(const TextHeader& header) {
   static const std::map<std::string, PixelFormat> formats{
       {"uchar", {1, false, false}},          {"unsigned char", {1, false, false}},
       {"uint8", {1, false, false}},          {"uint8_t", {1, false, false}},
@@ -74,38 +63,35 @@ PixelFormat pixel_format(const std::string& path, Header header) {
       {"int32", {4, true, false}},           {"int32_t", {4, true, false}},
       {"uint", {4, false, false}},           {"unsigned int", {4, false, false}},
       {"uint32", {4, false, false}},         {"uint32_t", {4, false, false}}};
-  const auto found = formats.find(header["type"]);
-  if (found == formats.end()) refuse(path, "type", header["type"], "integers of 8, 16 or 32 bits are read");
+  const auto found = formats.find(header.text("type"));
+  if (found == formats.end()) header.refuse("type", "integers of 8, 16 or 32 bits are read");
   PixelFormat format = found->second;
-  format.big_endian = header["endian"] == "big";
+  format.big_endian = header.text("endian") == "big";
   return format;
-}
-
-Vec3 spacing(const std::string& path, const Header& header) {
-  const auto directions = header.find("space directions");
-  if (directions != header.end()) return direction_lengths(path, directions->second);
-  return three_numbers(path, header, "spacings");
 }
 
 }  // namespace
 
 LabelImage read_nrrd(const std::string& path, const std::string& content) {
   std::size_t data = 0;
-  Header header = parse_header(path, content, data);
-  if (header["dimension"] != "3") refuse(path, "dimension", header["dimension"], "3 is read");
-  const std::string encoding = header["encoding"];
+  const TextHeader header = parse_header(path, content, data);
+  if (header.text("dimension") != "3") header.refuse("dimension", "3 is read");
+  const std::string encoding = header.text("encoding");
   const bool packed = encoding == "gzip" || encoding == "gz";
-  if (!packed && encoding != "raw") refuse(path, "encoding", encoding, "raw and gzip are read");
-  if (header.count("data file") + header.count("datafile") > 0)
+  if (!packed && encoding != "raw") header.refuse("encoding", "raw and gzip are read");
+  if (header.has("data file") || header.has("datafile"))
     throw FileError("label image '" + path + "': NRRD with data in another file; attached data is read");
 
+  const bool placed = header.has("space directions");
+  const Mat3 axes = placed ? space_directions(header) : Mat3::Identity();
   LabelImage image;
-  image.size = three_numbers(path, header, "sizes").cast<int>();
-  image.spacing = kMillimetre * spacing(path, header);
+  image.size = header.three_numbers("sizes").cast<int>();
+  image.spacing = kMillimetre * (placed ? lengths(axes) : header.three_numbers("spacings"));
   check_image_geometry(path, image);
-  const PixelFormat format = pixel_format(path, header);
+  const PixelFormat format = pixel_format(header);
   image.labels = packed ? decode_labels(path, inflate_from(path, content, data), 0, image.size, format)
                         : decode_labels(path, content, data, image.size, format);
+  apply_axes(path, placed && left_handed_space(header) ? Mat3(-axes) : axes, image);
   return image;
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The replay program from its command line: cuts of boxes, liver and bunny, and what it refuses.
+"""The replay program from its command line: cuts of boxes and of every other tissue, and what it refuses.
 
 usage: replay_test.py REPLAY PACKAGE [--bags]   (--bags: it was built with ROS and reads bags)
 """
@@ -92,8 +92,9 @@ class Cuts(ReplayTest):
         self.assertGreater(summary["blade_work_j"], summary["fracture_work_j"])
 
     @needs_bags
-    def test_liver_and_bunny(self):
-        for config, name in (("liver", "liver_incision"), ("bunny", "bunny_cut")):
+    def test_liver_bunny_bread_and_steak(self):
+        cuts = (("liver", "liver_incision"), ("bunny", "bunny_cut"), ("bread", "bread_slices"), ("steak", "steak_cut"))
+        for config, name in cuts:
             file = os.path.join(PACKAGE, "config", config + ".yaml")
             summary = self.replay(config, "--bag", bag(name), config=file)
             self.assertGreaterEqual(summary["fracture_events"], 3, config)

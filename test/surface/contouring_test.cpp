@@ -99,6 +99,38 @@ TEST_P(PlanarCut, triangles_are_positive_about_their_links) {
   EXPECT_EQ(quality.degenerate, 0);
 }
 
+/// Label 1 below a height, 2 above.
+VoxelVolume two_labels(const Vec3i& size, int height) {
+  LabelImage image{size, Vec3::Ones(), {}};
+  for (int n = 0; n < size.prod(); ++n) image.labels.push_back(n / (size.x() * size.y()) < height ? 1 : 2);
+  return VoxelVolume::sample(*make_label_shape(image, {1, 2}, Pose::Identity(), "two labels"), Vec3::Ones());
+}
+
+TEST(Labels, of_triangles_are_those_of_the_tissue_behind_them) {
+  VoxelVolume volume = two_labels({6, 5, 8}, 4);
+  sever(volume, {{3.2, 0, 0}, {1, 0, 0}});
+  SurfaceExtractor extractor(volume);
+  const TissueSurface& surface = extractor.extract({});
+  ASSERT_EQ(surface.label.size(), surface.triangles.size());
+  std::array<std::array<int, 2>, 3> count{};  // by label, then by skin and cut
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    double lowest = 8.0, highest = 0.0;
+    for (const int v : surface.triangles[t]) {
+      lowest = std::min(lowest, surface.vertices[v].X.z());
+      highest = std::max(highest, surface.vertices[v].X.z());
+    }
+    const int label = surface.label[t];
+    EXPECT_TRUE(highest < 3.4  ? label == 1
+                : lowest > 4.6 ? label == 2
+                               : label == 1 || label == 2)
+        << label << " between " << lowest << " and " << highest;
+    ++count[label][surface.cut[t]];
+  }
+  EXPECT_EQ(count[0], (std::array<int, 2>{0, 0}));
+  for (const int label : {1, 2})
+    for (const int kind : {0, 1}) EXPECT_GT(count[label][kind], 0);
+}
+
 Plane plane(const Vec3& point, const Vec3& normal) { return {point, normal.normalized()}; }
 
 INSTANTIATE_TEST_SUITE_P(tilts, PlanarCut,

@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "cfem_cutting/io/config_reader.h"
 #include "cfem_cutting/ros/scene.h"
 
 namespace cfem_cutting {
@@ -19,8 +20,7 @@ namespace cfem_cutting {
 /// thread of its own: the steps do not wait for it.
 class ScenePublisher {
  public:
-  /// @param rate Hz
-  ScenePublisher(ros::NodeHandle& node, const std::string& tissue_frame, double rate);
+  ScenePublisher(ros::NodeHandle& node, const Config& config);
   ~ScenePublisher();
 
   /// Whether a scene is wanted now: someone listens, its turn has come, and it differs from the last one or a
@@ -38,6 +38,7 @@ class ScenePublisher {
   void publish(const Scene& scene);
 
   std::string frame_;
+  SurfaceConfig look_;
   std::chrono::duration<double> period_;
   std::chrono::steady_clock::time_point last_;
   std::atomic<bool> new_listener_{false};

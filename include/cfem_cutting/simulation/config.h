@@ -46,8 +46,16 @@ struct BladeConfig {
   double max_travel = 0.02;  ///< m
 };
 
+/// How the tissue of a label is drawn.
+struct LabelColour {
+  int label = 0;               ///< boxes and meshes have 0
+  Vec3 colour = Vec3::Zero();  ///< red, green, blue, 0 to 1
+};
+
 struct SurfaceConfig {
   bool influence_domain_adaptation = true;
+  std::vector<int> hidden_labels;          ///< whose skin and cut faces are not drawn
+  std::vector<LabelColour> label_colours;  ///< instead of the colours of skin and cut faces
 };
 
 struct DynamicsConfig {

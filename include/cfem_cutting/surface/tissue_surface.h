@@ -24,6 +24,7 @@ struct TissueSurface {
   std::vector<SurfaceVertex> vertices;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside
   std::vector<std::uint8_t> cut;              ///< per triangle: 1 cut face, 0 skin
+  std::vector<std::uint8_t> label;            ///< per triangle: of the voxel that it bounds
   TriangleMesh rest() const;                  ///< the surface in material space
 };
 
@@ -68,7 +69,8 @@ struct DeformedSurface {
   std::vector<int> source;      ///< index of the TissueSurface vertex that each stems from, (|V|)
   std::vector<Vec3> normals;    ///< unit, (|V|)
   std::vector<std::array<int, 3>> triangles;
-  std::vector<std::uint8_t> cut;
+  std::vector<std::uint8_t> cut;    ///< per triangle: 1 cut face, 0 skin
+  std::vector<std::uint8_t> label;  ///< per triangle: of the voxel that it bounds
   TriangleMesh mesh() const { return {positions, triangles}; }
 };
 

@@ -26,9 +26,13 @@ struct LabelImage {
   std::vector<std::uint8_t> labels;  ///< x fastest; labels above 255 are refused by the readers
 };
 
-/// Reads Inrimage (.inr, .inr.gz) or NRRD (.nrrd, raw or gzip, attached data); millimetres become metres.
-/// Where the image stands in its scanner (NRRD space origin, the axes' directions) is not applied.
-/// @throw FileError missing, truncated, or of a type that isn't read.
+/// Reads Inrimage (.inr, .inr.gz), NRRD (.nrrd, raw or gzip, attached data), NIfTI-1 and -2 (.nii, .nii.gz)
+/// or MetaImage (.mha, .mhd with .raw or .zraw), by what the file holds. Lengths are in mm unless the file
+/// says otherwise, and become metres. Where the image stands in its scanner, and how it is turned there, is
+/// not applied; but an image whose axes are left-handed there is reversed along x, so that its tissue is no
+/// mirror image.
+/// @throw FileError missing, truncated, of a type that isn't read, axes not square to each other, labels that
+/// are not integers from 0 to 255
 LabelImage read_label_image(const std::string& path);
 
 /// The image voxels with one of the selected labels.
