@@ -90,12 +90,17 @@ Vec3 minimise(const VoxelVolume& volume, const DualCell& cell, const SheetGroup&
     if (across(side) < side && cell.has_side(across(side))) continue;
     error.add(volume.crossing(cell.voxel[side / 3], direction_from(side / 3, side % 3)));
   }
-  const Vec3 centre = volume.lattice().centre(cell.index);
-  const Vec3 margin = kCellMargin * volume.lattice().spacing;
-  return error.minimum(Box(centre + margin, centre + volume.lattice().spacing - margin));
+  return error.minimum(room_in_cell(volume.lattice(), cell.index));
 }
 
 }  // namespace
+
+Box room_in_cell(const Lattice& lattice, const Vec3i& index) {
+  constexpr double kMargin = 0.005;  // of a cell's edge
+  const Vec3 low = lattice.centre(index);
+  const Vec3 margin = kMargin * lattice.spacing;
+  return {low + margin, low + lattice.spacing - margin};
+}
 
 LocalSide DualCell::arc_end(LocalSide side, int normal_axis) const {
   int corner = side / 3;
