@@ -82,15 +82,16 @@ void group_sheets(DualCell& cell) {
   for (SheetGroup& group : cell.groups) describe_group(cell, group);
 }
 
-/// The error function's planes; a severed link counts once.
+/// A severed link counts once.
 Vec3 minimise(const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {
-  ErrorFunction error;
+  ErrorFunction skin, cut;
   for (LocalSide side = 0; side < kLocalSides; ++side) {
     if (!(group.sides >> side & 1)) continue;
-    if (across(side) < side && cell.has_side(across(side))) continue;
-    error.add(volume.crossing(cell.voxel[side / 3], direction_from(side / 3, side % 3)));
+    const bool severed = cell.has_side(across(side));
+    if (severed && across(side) < side) continue;
+    (severed ? cut : skin).add(volume.crossing(cell.voxel[side / 3], direction_from(side / 3, side % 3)));
   }
-  return error.minimum(room_in_cell(volume.lattice(), cell.index));
+  return minimum(skin, cut, room_in_cell(volume.lattice(), cell.index));
 }
 
 }  // namespace
