@@ -47,3 +47,5 @@ set_tests_properties(replay PROPERTIES TIMEOUT 600)
 # The installed core serves a project without ROS.
 add_test(NAME install COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_BINARY_DIR}
   -P ${CMAKE_CURRENT_SOURCE_DIR}/test/install/install_test.cmake)
+
+include(random_cuts)
