@@ -85,8 +85,8 @@ void for_links_near(const VoxelVolume& volume, const SweptTriangle& t, Visit vis
   const Lattice& lattice = volume.lattice();
   Box box(t.corners[0]);
   box.extend(t.corners[1]).extend(t.corners[2]);
-  const Vec3i low = (lattice.voxel_at(box.min()).array() - 2).max(0);
-  const Vec3i high = (lattice.voxel_at(box.max()).array() + 2).min(lattice.size.array() - 1);
+  const Vec3i low = (lattice.voxel_at(box.min()).array() - 1).max(0);
+  const Vec3i high = (lattice.voxel_at(box.max()).array()).min(lattice.size.array() - 1);
   for (int k = low.z(); k <= high.z(); ++k)
     for (int j = low.y(); j <= high.y(); ++j)
       for (int i = low.x(); i <= high.x(); ++i)

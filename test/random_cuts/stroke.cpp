@@ -6,7 +6,7 @@ namespace cfem_cutting::random_cuts {
 namespace {
 
 /// Half an edge or a way over the tissue's radius: still past the tissue where the sheet bends.
-constexpr double kOverhang = 1.5;
+constexpr double kOverhang = 1.3;
 
 int random_frames(Dice& dice) { return static_cast<int>(dice.log_uniform(1.0, 200.999)); }
 

@@ -2,39 +2,52 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+#include <tuple>
 
 namespace cfem_cutting::random_cuts {
 namespace {
 
 using Triangle = std::array<int, 3>;
 
-/// Each edge must be used once in either direction.
-bool edges_pair_up(const std::vector<Triangle>& triangles) {
-  std::vector<std::pair<int, int>> edges, reversed;
-  for (const Triangle& t : triangles)
-    for (int i = 0; i < 3; ++i) {
-      edges.emplace_back(t[i], t[(i + 1) % 3]);
-      reversed.emplace_back(t[(i + 1) % 3], t[i]);
-    }
-  std::sort(edges.begin(), edges.end());
-  std::sort(reversed.begin(), reversed.end());
-  return edges == reversed && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+/// A triangle's corner and the edge opposite to it.
+struct Corner {
+  int vertex, from, to;
+  bool operator<(const Corner& o) const { return std::tie(vertex, from) < std::tie(o.vertex, o.from); }
+};
+
+std::vector<Corner> sorted_corners(const std::vector<Triangle>& triangles) {
+  std::vector<Corner> corners;
+  corners.reserve(3 * triangles.size());
+  for (const auto& [a, b, c] : triangles) {
+    corners.push_back({a, b, c});
+    corners.push_back({b, c, a});
+    corners.push_back({c, a, b});
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
 }
 
-/// The edges opposite to each vertex must be one cycle.
-bool vertices_have_one_fan(const std::vector<Triangle>& triangles) {
-  std::map<int, std::map<int, int>> next_around;
-  for (const Triangle& t : triangles)
-    for (int i = 0; i < 3; ++i) next_around[t[i]][t[(i + 1) % 3]] = t[(i + 2) % 3];
-  for (const auto& [vertex, next] : next_around) {
-    const int first = next.begin()->first;
-    std::size_t steps = 1;
-    for (int at = next.at(first); at != first; at = next.at(at)) ++steps;
-    if (steps != next.size()) return false;
+/// Each edge from a vertex must be used once in either direction: its corners' `from` are all different, and
+/// the same as their `to`.
+bool edges_pair_up(const Corner* begin, const Corner* end) {
+  std::vector<int> from, to;
+  for (const Corner* c = begin; c != end; ++c) {
+    from.push_back(c->from);
+    to.push_back(c->to);
   }
-  return true;
+  std::sort(to.begin(), to.end());
+  return from == to && std::adjacent_find(to.begin(), to.end()) == to.end();
+}
+
+/// The edges opposite to a vertex must be one cycle.
+bool is_one_fan(const Corner* begin, const Corner* end) {
+  const Corner* at = begin;
+  std::ptrdiff_t steps = 0;
+  do {
+    at = std::lower_bound(begin, end, Corner{begin->vertex, at->to, 0});
+    ++steps;
+  } while (at != begin);
+  return steps == end - begin;
 }
 
 /// The sense of three cells around a link, or of the triangle's corners, about an axis.
@@ -69,8 +82,15 @@ void SurfaceFigures::add(const SurfaceFigures& other) {
 std::string find_flaw(const std::vector<Triangle>& triangles) {
   for (const Triangle& t : triangles)
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return "a triangle uses a vertex twice";
-  if (!edges_pair_up(triangles)) return "an edge isn't used once in either direction";
-  if (!vertices_have_one_fan(triangles)) return "a vertex has more than one fan";
+  const std::vector<Corner> corners = sorted_corners(triangles);
+  const Corner* const last = corners.data() + corners.size();
+  for (const Corner* begin = corners.data(); begin != last;) {
+    const Corner* end = begin;
+    while (end != last && end->vertex == begin->vertex) ++end;
+    if (!edges_pair_up(begin, end)) return "an edge isn't used once in either direction";
+    if (!is_one_fan(begin, end)) return "a vertex has more than one fan";
+    begin = end;
+  }
   return {};
 }
 

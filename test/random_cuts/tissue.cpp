@@ -42,7 +42,8 @@ const VoxelVolume& random_bunny(Dice& dice, bool dyadic, const std::string& path
   if (found != sampled.end()) return found->second;
   Dice own(variant);
   const Vec3 spacing = random_spacing(own, dyadic);
-  TriangleMesh mesh = read_mesh(path);
+  static const TriangleMesh bunny = read_mesh(path);
+  TriangleMesh mesh = bunny;
   Box bounds;
   for (const Vec3& vertex : mesh.vertices) bounds.extend(vertex);
   const double scale = own.integer(15, 18) * spacing.maxCoeff() / bounds.sizes().maxCoeff();
