@@ -82,8 +82,8 @@ void group_sheets(DualCell& cell) {
   for (SheetGroup& group : cell.groups) describe_group(cell, group);
 }
 
-/// A severed link counts once.
-Vec3 minimise(const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {
+/// A severed link counts once. Of several groups in a cell, minima may lie beyond each other; means don't.
+Vec3 place(const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {
   ErrorFunction skin, cut;
   for (LocalSide side = 0; side < kLocalSides; ++side) {
     if (!(group.sides >> side & 1)) continue;
@@ -91,7 +91,8 @@ Vec3 minimise(const VoxelVolume& volume, const DualCell& cell, const SheetGroup&
     if (severed && across(side) < side) continue;
     (severed ? cut : skin).add(volume.crossing(cell.voxel[side / 3], direction_from(side / 3, side % 3)));
   }
-  return minimum(skin, cut, room_in_cell(volume.lattice(), cell.index));
+  const Box room = room_in_cell(volume.lattice(), cell.index);
+  return cell.groups.size() > 1 ? mean(skin, cut, room) : minimum(skin, cut, room);
 }
 
 }  // namespace
@@ -119,7 +120,7 @@ DualCell contour_cell(const VoxelVolume& volume, const Vec3i& index) {
   find_sides(volume, cell);
   find_sheets(cell);
   group_sheets(cell);
-  for (SheetGroup& group : cell.groups) group.minimum = minimise(volume, cell, group);
+  for (SheetGroup& group : cell.groups) group.minimum = place(volume, cell, group);
   return cell;
 }
 

@@ -58,13 +58,15 @@ Mat3 ErrorFunction::free_directions(double truncation) const {
   return projector;
 }
 
+Vec3 mean(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
+  return clamp((skin.sum() + cut.sum()) / (skin.count() + cut.count()), room);
+}
+
 Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
-  if (skin.empty() || cut.empty()) {
-    const ErrorFunction& only = skin.empty() ? cut : skin;
-    return clamp(only.mean() + only.way_to_minimum(only.mean(), kTruncation), room);
-  }
-  const Vec3 mean = (skin.count() * skin.mean() + cut.count() * cut.mean()) / (skin.count() + cut.count());
-  const Vec3 on_skin = clamp(mean + skin.way_to_minimum(mean, kCrease), room);
+  const Vec3 start = (skin.sum() + cut.sum()) / (skin.count() + cut.count());
+  if (skin.empty() || cut.empty())
+    return clamp(start + (skin.empty() ? cut : skin).way_to_minimum(start, kTruncation), room);
+  const Vec3 on_skin = clamp(start + skin.way_to_minimum(start, kCrease), room);
   return go(on_skin, cut.way_to_minimum(on_skin, kTruncation, skin.free_directions(kCrease)), room);
 }
 

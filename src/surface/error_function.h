@@ -11,7 +11,7 @@ class ErrorFunction {
 
   bool empty() const { return count_ == 0; }
   int count() const { return count_; }
-  Vec3 mean() const { return first_ + sum_ / count_; }  ///< m, of the crossings
+  Vec3 sum() const { return count_ * first_ + sum_; }  ///< m, of the crossings
 
   /// The way from X to the nearest minimum, without directions that the planes hardly fix: singular values
   /// below `truncation` of the largest count as zero (Ju et al. 2002, section 2.3).
@@ -32,5 +32,8 @@ class ErrorFunction {
 /// The minimum of skin and cut planes in a box that holds the crossings. The skin comes first: a cut must not
 /// move it, so the cut's planes only decide where the skin leaves a choice. Either may be empty, not both.
 Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room);
+
+/// The mean of the crossings, as far as a box allows.
+Vec3 mean(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room);
 
 }  // namespace cfem_cutting

@@ -12,7 +12,7 @@ struct SurfaceFigures {
   std::int64_t without_area = 0;  ///< twice the area under 1e-9 of the longest edge squared
   std::int64_t flipped = 0;       ///< turned the wrong way about their link
   std::int64_t needles = 0;       ///< smallest angle under 5°
-  std::int64_t crossing = 0;      ///< that meet others of their piece
+  std::int64_t crossing = 0;      ///< that meet others, see count_self_crossings
   void add(const SurfaceFigures& other);
 };
 
@@ -25,7 +25,7 @@ double signed_volume(const TissueSurface& surface);
 
 SurfaceFigures measure(const TissueSurface& surface);
 
-/// Triangles that meet others of their connected part in more than a common edge or vertex.
+/// Triangles that meet others in more than a common corner or edge; the faces of a closed cut count as one.
 std::int64_t count_self_crossings(const TissueSurface& surface);
 
 }  // namespace cfem_cutting::random_cuts
