@@ -50,3 +50,4 @@ add_test(NAME install COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_BINARY_DIR}
 
 add_test(NAME scripts.make_tissue COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/test/scripts/make_tissue_test.py $<TARGET_FILE:replay> ${CMAKE_CURRENT_SOURCE_DIR})
+include(random_cuts)

@@ -30,7 +30,8 @@ Pose interpolate(const Pose& a, const Pose& b, double s) {
   const Eigen::Quaterniond rotation = Eigen::Quaterniond(a.linear()).slerp(s, Eigen::Quaterniond(b.linear()));
   Pose between = Pose::Identity();
   between.linear() = rotation.toRotationMatrix();
-  between.translation() = (1.0 - s) * a.translation() + s * b.translation();
+  between.translation() =
+      a.translation() + s * (b.translation() - a.translation());  // exact where they agree
   return between;
 }
 

@@ -15,9 +15,9 @@ class Strip {
   bool complete() const {
     return std::all_of(corners_.begin(), corners_.end(), [](const auto* c) { return c->has_value(); });
   }
-  bool touches_tissue() const {
+  bool near_links() const {
     return std::any_of(corners_.begin(), corners_.end(),
-                       [](const auto* c) { return c->has_value() && (*c)->inside; });
+                       [](const auto* c) { return c->has_value() && (*c)->near_links; });
   }
   void append_to(std::vector<SweptTriangle>& swept) const {
     append(swept, 0, 1, 2);
@@ -43,9 +43,9 @@ std::vector<SweptTriangle> sweep(const MaterialFront& before, const MaterialFron
   for (std::size_t i = 0; i + 1 < after.size(); ++i) strips.emplace_back(before, after, i);
   std::vector<SweptTriangle> swept;
   for (std::size_t i = 0; i < strips.size(); ++i) {
-    const bool beside = (i > 0 && strips[i - 1].touches_tissue()) ||
-                        (i + 1 < strips.size() && strips[i + 1].touches_tissue());
-    if (strips[i].complete() && (strips[i].touches_tissue() || beside)) strips[i].append_to(swept);
+    const bool beside =
+        (i > 0 && strips[i - 1].near_links()) || (i + 1 < strips.size() && strips[i + 1].near_links());
+    if (strips[i].complete() && (strips[i].near_links() || beside)) strips[i].append_to(swept);
   }
   return swept;
 }

@@ -52,11 +52,15 @@ double depth_beyond(const VoxelVolume& volume, int v, int direction, const Vec3&
   return (X - crossing.point).dot(crossing.normal);
 }
 
-bool on_tissue_side(const VoxelVolume& volume, int v, const Vec3& X) {
-  const double tolerance = kOnBoundary * volume.lattice().spacing.minCoeff();
+bool beyond(const VoxelVolume& volume, int v, int direction, const Vec3& X) {
+  return depth_beyond(volume, v, direction, X) > kOnBoundary * volume.lattice().spacing.minCoeff();
+}
+
+bool beyond_skin(const VoxelVolume& volume, int v, const Vec3& X) {
   for (int direction = 0; direction < kDirections; ++direction)
-    if (depth_beyond(volume, v, direction, X) > tolerance) return false;
-  return true;
+    if (volume.voxel(v).link[direction] == LinkState::kSurface && beyond(volume, v, direction, X))
+      return true;
+  return false;
 }
 
 /// The nearest point to X in a voxel's tissue: in its box, then pushed onto the planes that it lies beyond.
@@ -88,31 +92,55 @@ Vec3 InverseMap::forward(const MaterialPoint& point) const {
 }
 
 std::optional<MaterialPoint> InverseMap::operator()(const Vec3& x) const {
-  std::optional<MaterialPoint> inside;
+  std::optional<MaterialPoint> found;
   const double apart = kOverlap * volume_.lattice().spacing.minCoeff();
   hash_->elements.visit_at(x, [&](int element) {
-    const std::optional<MaterialPoint> here = inside_element(element, x);
-    if (!inside) {
-      inside = here;
-    } else if (here && (here->X - inside->X).norm() > apart) {
-      inside->inside = false;
+    const std::optional<MaterialPoint> here = in_voxel_of(element, x);
+    const bool again = here && found && here->inside && found->inside;
+    if (again && (here->X - found->X).norm() > apart) {
+      found->inside = found->near_links = false;
+      return true;
     }
-    return inside && !inside->inside;
+    if (here && (!found || (here->inside && !found->inside))) found = here;
+    return false;
   });
-  return inside ? inside : beside_tissue(x);
+  return found ? found : beside_tissue(x);
 }
 
-/// The point if it lies in the tissue of this very element.
-std::optional<MaterialPoint> InverseMap::inside_element(int element, const Vec3& x) const {
-  const std::optional<Vec3> t = invert_trilinear(corners_of(mesh_, x_, element), x, 0.5 + kOnBoundary);
-  if (!t) return std::nullopt;
-  const Vec3 X = mesh_.block_corner(element) + t->cwiseProduct(mesh_.block_size());
+/// The point if it lies in a linked voxel of this very element, and not in an open cut.
+std::optional<MaterialPoint> InverseMap::in_voxel_of(int element, const Vec3& x) const {
+  const std::optional<Vec3> X = pull_back(element, x, 0.5 + kOnBoundary);
+  if (!X) return std::nullopt;
   const Vec3i first = mesh_.first_voxel() + mesh_.elements()[element].block * (1 << mesh_.level());
   const Vec3i last = first + Vec3i::Constant((1 << mesh_.level()) - 1);
-  const int v = volume_.find(volume_.lattice().voxel_at(X).cwiseMax(first).cwiseMin(last));
+  const int v = volume_.find(volume_.lattice().voxel_at(*X).cwiseMax(first).cwiseMin(last));
   if (v < 0 || !volume_.voxel(v).linked() || mesh_.element_of_voxel(v) != element) return std::nullopt;
-  if (!on_tissue_side(volume_, v, X)) return std::nullopt;
-  return MaterialPoint{X, v, true};
+  std::optional<MaterialPoint> owned = owner({*X, v}, x);
+  if (owned) owned->inside = !beyond_skin(volume_, v, *X);
+  if (owned) owned->near_links = true;
+  return owned;
+}
+
+/// A point in a voxel, or in its part beyond a severed link, which belongs to the voxel across; nothing if it
+/// isn't the latter's either, but in the gap between the two.
+std::optional<MaterialPoint> InverseMap::owner(const MaterialPoint& point, const Vec3& x) const {
+  const Voxel& voxel = volume_.voxel(point.voxel);
+  MaterialPoint owner = point;
+  for (int direction = 0; direction < kDirections; ++direction) {
+    if (voxel.link[direction] != LinkState::kSevered || !beyond(volume_, point.voxel, direction, point.X))
+      continue;
+    const int across = voxel.neighbour[direction];
+    const std::optional<Vec3> X = pull_back(mesh_.element_of_voxel(across), x, 1.0 + reach_);
+    if (!X || beyond(volume_, across, opposite(direction), *X)) return std::nullopt;
+    owner = {*X, across};
+  }
+  return owner;
+}
+
+std::optional<Vec3> InverseMap::pull_back(int element, const Vec3& x, double largest) const {
+  const std::optional<Vec3> t = invert_trilinear(corners_of(mesh_, x_, element), x, largest);
+  if (!t) return std::nullopt;
+  return mesh_.block_corner(element) + t->cwiseProduct(mesh_.block_size());
 }
 
 /// The point in air, by the element whose tissue is nearest to it in material space.
@@ -123,13 +151,12 @@ std::optional<MaterialPoint> InverseMap::beside_tissue(const Vec3& x) const {
   for (const auto& [bounds_distance, element] : hash_->elements.near(x, reach)) {
     const double least_stretch = 0.5;  // beyond a doubling of lengths, elements far off are not looked at
     if (least_stretch * bounds_distance > best) break;
-    const std::optional<Vec3> t = invert_trilinear(corners_of(mesh_, x_, element), x, 1.0 + reach_);
-    if (!t) continue;
-    const Vec3 X = mesh_.block_corner(element) + t->cwiseProduct(mesh_.block_size());
-    const auto [distance, v] = nearest_own_voxel(volume_, mesh_.elements()[element], X);
+    const std::optional<Vec3> X = pull_back(element, x, 1.0 + reach_);
+    if (!X) continue;
+    const auto [distance, v] = nearest_own_voxel(volume_, mesh_.elements()[element], *X);
     if (distance >= best) continue;
     best = distance;
-    nearest = MaterialPoint{X, v, false};
+    nearest = MaterialPoint{*X, v};
   }
   if (nearest && in_tissue_of_another(*nearest)) nearest->X = draw_back(volume_, nearest->voxel, nearest->X);
   return nearest;

@@ -23,14 +23,14 @@ struct Bound {
 
 /// The nearest group of those where a cut ends, else of those with skin; −1: only faces of an open cut, or
 /// nothing.
-int choose_group(const DualCell& cell, const FrontPiece& piece) {
+int choose_group(const DualCell& cell, const FrontPiece& piece, const Box& room) {
   int best = -1;
   double best_distance = std::numeric_limits<double>::infinity();
   for (const bool cut_end : {true, false}) {
     for (std::size_t g = 0; g < cell.groups.size(); ++g) {
       const SheetGroup& group = cell.groups[g];
       if (!(cut_end ? group.cut_end : group.skin)) continue;
-      const double distance = (project_within(piece, group.minimum) - group.minimum).norm();
+      const double distance = (project_within(piece, group.minimum, room) - group.minimum).norm();
       if (distance >= best_distance) continue;
       best = static_cast<int>(g);
       best_distance = distance;
@@ -41,10 +41,12 @@ int choose_group(const DualCell& cell, const FrontPiece& piece) {
 }
 
 std::vector<Bound> find_bound(const Contour& contour, const Polyline& polyline) {
+  const Lattice& lattice = contour.volume().lattice();
   std::vector<Bound> bound;
-  for (FrontPiece& piece : walk_dual_cells(contour.volume().lattice(), polyline)) {
+  for (FrontPiece& piece : walk_dual_cells(lattice, polyline)) {
     const int cell = contour.find(piece.cell);
-    const int group = cell < 0 ? -1 : choose_group(contour.cells()[cell], piece);
+    const Box room = room_in_cell(lattice, piece.cell);
+    const int group = cell < 0 ? -1 : choose_group(contour.cells()[cell], piece, room);
     if (group >= 0) bound.push_back({std::move(piece), cell, group});
   }
   return bound;
@@ -82,8 +84,8 @@ std::vector<Bound> without_short(const Contour& contour, std::vector<Bound> boun
 }
 
 /// Where a trace comes back to a cell, the shorter way counts.
-void bind(SheetGroup& group, const FrontPiece& piece) {
-  const Vec3 X = project_within(piece, group.minimum);
+void bind(SheetGroup& group, const FrontPiece& piece, const Box& room) {
+  const Vec3 X = project_within(piece, group.minimum, room);
   if (!group.adapted || (X - group.minimum).norm() < (*group.adapted - group.minimum).norm())
     group.adapted = X;
 }
@@ -95,7 +97,8 @@ void adapt(Contour& contour, const FrontTrace& trace) {
     for (SheetGroup& group : cell.groups) group.adapted.reset();
   for (const Polyline& polyline : trace)
     for (const Bound& b : without_short(contour, find_bound(contour, polyline)))
-      bind(contour.cells()[b.cell].groups[b.group], b.piece);
+      bind(contour.cells()[b.cell].groups[b.group], b.piece,
+           room_in_cell(contour.volume().lattice(), b.piece.cell));
 }
 
 bool holds_crease(const DualCell& cell) {

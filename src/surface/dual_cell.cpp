@@ -82,20 +82,27 @@ void group_sheets(DualCell& cell) {
   for (SheetGroup& group : cell.groups) describe_group(cell, group);
 }
 
-/// The error function's planes; a severed link counts once.
-Vec3 minimise(const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {
-  ErrorFunction error;
+/// A severed link counts once. Of several groups in a cell, minima may lie beyond each other; means don't.
+Vec3 place(const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {
+  ErrorFunction skin, cut;
   for (LocalSide side = 0; side < kLocalSides; ++side) {
     if (!(group.sides >> side & 1)) continue;
-    if (across(side) < side && cell.has_side(across(side))) continue;
-    error.add(volume.crossing(cell.voxel[side / 3], direction_from(side / 3, side % 3)));
+    const bool severed = cell.has_side(across(side));
+    if (severed && across(side) < side) continue;
+    (severed ? cut : skin).add(volume.crossing(cell.voxel[side / 3], direction_from(side / 3, side % 3)));
   }
-  const Vec3 centre = volume.lattice().centre(cell.index);
-  const Vec3 margin = kCellMargin * volume.lattice().spacing;
-  return error.minimum(Box(centre + margin, centre + volume.lattice().spacing - margin));
+  const Box room = room_in_cell(volume.lattice(), cell.index);
+  return cell.groups.size() > 1 ? mean(skin, cut, room) : minimum(skin, cut, room);
 }
 
 }  // namespace
+
+Box room_in_cell(const Lattice& lattice, const Vec3i& index) {
+  constexpr double kMargin = 0.005;  // of a cell's edge
+  const Vec3 low = lattice.centre(index);
+  const Vec3 margin = kMargin * lattice.spacing;
+  return {low + margin, low + lattice.spacing - margin};
+}
 
 LocalSide DualCell::arc_end(LocalSide side, int normal_axis) const {
   int corner = side / 3;
@@ -113,7 +120,7 @@ DualCell contour_cell(const VoxelVolume& volume, const Vec3i& index) {
   find_sides(volume, cell);
   find_sheets(cell);
   group_sheets(cell);
-  for (SheetGroup& group : cell.groups) group.minimum = minimise(volume, cell, group);
+  for (SheetGroup& group : cell.groups) group.minimum = place(volume, cell, group);
   return cell;
 }
 

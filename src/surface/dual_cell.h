@@ -21,8 +21,9 @@ constexpr int direction_from(int corner, int axis) { return 2 * axis + 1 - (corn
 /// The same link's side at its other end.
 constexpr LocalSide across(LocalSide side) { return 3 * (side / 3 ^ (1 << side % 3)) + side % 3; }
 
-/// Part of a cell's edge at which vertices keep off its faces.
-constexpr double kCellMargin = 0.005;
+/// Where the vertices of a dual cell may lie: a little off its faces, so that all corners of the quad around
+/// a link stand in their own quarters, and one of its diagonals makes two positive triangles.
+Box room_in_cell(const Lattice& lattice, const Vec3i& index);
 
 /// A piece of surface in a dual cell: a closed cycle of link sides. It gets one vertex.
 struct Sheet {

@@ -1,12 +1,27 @@
 #include "error_function.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 namespace cfem_cutting {
 namespace {
 
-/// Singular values below this part of the largest count as zero (Ju et al. 2002, section 2.3).
 constexpr double kTruncation = 0.1;
+
+/// Beside a cut, the skin's planes fix a second direction if they differ by more than a crease of 33°.
+constexpr double kCrease = 0.3;
+
+Vec3 clamp(const Vec3& X, const Box& room) { return X.cwiseMax(room.min()).cwiseMin(room.max()); }
+
+/// As far along a way from a point in the room as the room reaches.
+Vec3 go(const Vec3& from, const Vec3& way, const Box& room) {
+  double part = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double end = (way[axis] > 0.0 ? room.max() : room.min())[axis] - from[axis];
+    if (std::abs(way[axis]) > std::abs(end)) part = std::min(part, end / way[axis]);
+  }
+  return from + part * way;
+}
 
 }  // namespace
 
@@ -18,19 +33,41 @@ void ErrorFunction::add(const SurfacePoint& plane) {
   sum_ += p;
 }
 
-Vec3 ErrorFunction::minimum(const Box& bounds) const {
-  const Vec3 mean = sum_ / count_;
-  const Vec3 residual = Atb_ - AtA_ * mean;
-  Vec3 X = first_ + mean;
-  if (!residual.isZero(0.0)) {
-    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(AtA_);
-    const double smallest = kTruncation * kTruncation * eigen.eigenvalues()[2];
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 axis = eigen.eigenvectors().col(i);
-      if (eigen.eigenvalues()[i] > smallest) X += axis * (axis.dot(residual) / eigen.eigenvalues()[i]);
-    }
+Vec3 ErrorFunction::way_to_minimum(const Vec3& X, double truncation, const Mat3& allowed) const {
+  const Vec3 residual = allowed * (Atb_ - AtA_ * (X - first_));
+  Vec3 way = Vec3::Zero();
+  if (residual.isZero(0.0)) return way;
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(allowed * AtA_ * allowed);
+  const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(AtA_, Eigen::EigenvaluesOnly).eigenvalues()[2];
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 axis = eigen.eigenvectors().col(i);
+    if (eigen.eigenvalues()[i] > truncation * truncation * largest)
+      way += axis * (axis.dot(residual) / eigen.eigenvalues()[i]);
   }
-  return X.cwiseMax(bounds.min()).cwiseMin(bounds.max());
+  return way;
+}
+
+Mat3 ErrorFunction::free_directions(double truncation) const {
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(AtA_);
+  Mat3 projector = Mat3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 axis = eigen.eigenvectors().col(i);
+    if (eigen.eigenvalues()[i] <= truncation * truncation * eigen.eigenvalues()[2])
+      projector += axis * axis.transpose();
+  }
+  return projector;
+}
+
+Vec3 mean(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
+  return clamp((skin.sum() + cut.sum()) / (skin.count() + cut.count()), room);
+}
+
+Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
+  const Vec3 start = (skin.sum() + cut.sum()) / (skin.count() + cut.count());
+  if (skin.empty() || cut.empty())
+    return clamp(start + (skin.empty() ? cut : skin).way_to_minimum(start, kTruncation), room);
+  const Vec3 on_skin = clamp(start + skin.way_to_minimum(start, kCrease), room);
+  return go(on_skin, cut.way_to_minimum(on_skin, kTruncation, skin.free_directions(kCrease)), room);
 }
 
 }  // namespace cfem_cutting

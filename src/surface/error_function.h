@@ -9,9 +9,17 @@ class ErrorFunction {
  public:
   void add(const SurfacePoint& plane);
 
-  /// The minimum nearest to the crossings' mean, without directions that the planes hardly fix (truncated
-  /// singular value decomposition), kept within a box.
-  Vec3 minimum(const Box& bounds) const;
+  bool empty() const { return count_ == 0; }
+  int count() const { return count_; }
+  Vec3 sum() const { return count_ * first_ + sum_; }  ///< m, of the crossings
+
+  /// The way from X to the nearest minimum, without directions that the planes hardly fix: singular values
+  /// below `truncation` of the largest count as zero (Ju et al. 2002, section 2.3).
+  /// @param allowed projector onto the directions that the way may have
+  Vec3 way_to_minimum(const Vec3& X, double truncation, const Mat3& allowed = Mat3::Identity()) const;
+
+  /// Projector onto the directions that the planes hardly fix.
+  Mat3 free_directions(double truncation) const;
 
  private:
   Mat3 AtA_ = Mat3::Zero();    // Σ n nᵀ
@@ -20,5 +28,12 @@ class ErrorFunction {
   Vec3 first_ = Vec3::Zero();  // m
   int count_ = 0;
 };
+
+/// The minimum of skin and cut planes in a box that holds the crossings. The skin comes first: a cut must not
+/// move it, so the cut's planes only decide where the skin leaves a choice. Either may be empty, not both.
+Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room);
+
+/// The mean of the crossings, as far as a box allows.
+Vec3 mean(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room);
 
 }  // namespace cfem_cutting

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cfem_cutting/geometry/polyline.h"
 
@@ -65,6 +66,47 @@ Vec3 point_along(const Polyline& points, double along) {
   return points.back();
 }
 
+/// The nearest point of a piece, off the ends at which the polyline goes on.
+Vec3 project_between_ends(const FrontPiece& piece, const Vec3& query) {
+  if (piece.points.size() == 1) return piece.points[0];
+  const PolylineProjection nearest = project(piece.points, query);
+  double along = (nearest.point - piece.points[nearest.segment]).norm();
+  for (int i = 0; i < nearest.segment; ++i) along += (piece.points[i + 1] - piece.points[i]).norm();
+  const double margin = kEndMargin * piece.length;
+  const double low = piece.first ? 0.0 : margin;
+  const double high = piece.last ? piece.length : piece.length - margin;
+  return along < low || along > high ? point_along(piece.points, std::clamp(along, low, high))
+                                     : nearest.point;
+}
+
+/// The part of segment ab in a box, from and to positions on it (empty if from > to).
+std::pair<double, double> part_in(const Box& box, const Vec3& a, const Vec3& b) {
+  double from = 0.0, to = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = b[axis] - a[axis];
+    const double low = box.min()[axis] - a[axis], high = box.max()[axis] - a[axis];
+    if (way == 0.0 && (low > 0.0 || high < 0.0)) return {1.0, 0.0};
+    if (way == 0.0) continue;
+    from = std::max(from, std::min(low / way, high / way));
+    to = std::min(to, std::max(low / way, high / way));
+  }
+  return {from, to};
+}
+
+/// The point nearest to a query of a polyline's part in a box, if there is one.
+std::optional<Vec3> nearest_in(const Box& box, const Polyline& points, const Vec3& query) {
+  std::optional<Vec3> nearest;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const Vec3 &a = points[i], &b = points[i + 1];
+    const auto [from, to] = part_in(box, a, b);
+    if (from > to) continue;
+    const double t = (query - a).dot(b - a) / (b - a).squaredNorm();
+    const Vec3 X = a + std::clamp(t, from, to) * (b - a);
+    if (!nearest || (X - query).norm() < (*nearest - query).norm()) nearest = X;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 Vec3i dual_cell_at(const Lattice& lattice, const Vec3& X) {
@@ -80,16 +122,11 @@ std::vector<FrontPiece> walk_dual_cells(const Lattice& lattice, const Polyline& 
   return pieces;
 }
 
-Vec3 project_within(const FrontPiece& piece, const Vec3& query) {
-  if (piece.points.size() == 1) return piece.points[0];
-  const PolylineProjection nearest = project(piece.points, query);
-  double along = (nearest.point - piece.points[nearest.segment]).norm();
-  for (int i = 0; i < nearest.segment; ++i) along += (piece.points[i + 1] - piece.points[i]).norm();
-  const double margin = kEndMargin * piece.length;
-  const double low = piece.first ? 0.0 : margin;
-  const double high = piece.last ? piece.length : piece.length - margin;
-  return along < low || along > high ? point_along(piece.points, std::clamp(along, low, high))
-                                     : nearest.point;
+Vec3 project_within(const FrontPiece& piece, const Vec3& query, const Box& room) {
+  const Vec3 nearest = project_between_ends(piece, query);
+  if (room.contains(nearest)) return nearest;
+  const std::optional<Vec3> in_room = nearest_in(room, piece.points, query);
+  return in_room ? *in_room : Vec3(nearest.cwiseMax(room.min()).cwiseMin(room.max()));
 }
 
 }  // namespace cfem_cutting

@@ -24,7 +24,8 @@ Vec3i dual_cell_at(const Lattice& lattice, const Vec3& X);
 std::vector<FrontPiece> walk_dual_cells(const Lattice& lattice, const Polyline& polyline);
 
 /// The point of a piece nearest to a query. It keeps a part of the piece's length off ends at which the
-/// polyline goes on, so that vertices of neighbouring cells don't meet.
-Vec3 project_within(const FrontPiece& piece, const Vec3& query);
+/// polyline goes on, so that vertices of neighbouring cells don't meet, and in the room that a cell's
+/// vertices have: beside the piece only if it runs outside.
+Vec3 project_within(const FrontPiece& piece, const Vec3& query, const Box& room);
 
 }  // namespace cfem_cutting

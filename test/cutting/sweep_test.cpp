@@ -5,7 +5,7 @@
 namespace cfem_cutting {
 namespace {
 
-/// Points 1 m apart along x at a height; 'i' inside tissue, 'o' outside, '-' far away.
+/// Points 1 m apart along x at a height; 'i' inside tissue, 'n' near links, 'o' outside, '-' far away.
 MaterialFront front(const std::string& points, double z) {
   MaterialFront front;
   for (const char point : points) {
@@ -13,7 +13,7 @@ MaterialFront front(const std::string& points, double z) {
     if (point == '-')
       front.push_back(std::nullopt);
     else
-      front.push_back(MaterialPoint{X, 0, point == 'i'});
+      front.push_back(MaterialPoint{X, 0, point == 'i', point == 'i' || point == 'n'});
   }
   return front;
 }
@@ -35,6 +35,10 @@ TEST(Sweep, AirSweepsNothing) { EXPECT_TRUE(sweep(front("oooo", 0.0), front("ooo
 
 TEST(Sweep, OneStripMoreBesideTissue) {
   EXPECT_DOUBLE_EQ(area(sweep(front("ooooooo", 0.0), front("oooiooo", 1.0))), 4.0);
+}
+
+TEST(Sweep, LinksBeyondTheSkinAreSwept) {
+  EXPECT_DOUBLE_EQ(area(sweep(front("ooooooo", 0.0), front("ooonooo", 1.0))), 4.0);
 }
 
 TEST(Sweep, StripsWithAMissingCornerAreLeftOut) {

@@ -7,7 +7,7 @@ namespace {
 
 MaterialFront front(double z, bool inside = true) {
   MaterialFront front;
-  for (int i = 0; i < 5; ++i) front.push_back(MaterialPoint{{0.25 * i, 0.0, z}, 0, inside});
+  for (int i = 0; i < 5; ++i) front.push_back(MaterialPoint{{0.25 * i, 0.0, z}, 0, inside, inside});
   return front;
 }
 

@@ -2,37 +2,17 @@
 #include <cmath>
 #include <random>
 
+#include "surface/ball.h"
 #include "surface/tissue.h"
 
 namespace cfem_cutting {
 namespace {
 
+using test::Ball;
 using test::box_volume;
 using test::expect_closed_and_manifold;
 using test::Plane;
 using test::sever;
-
-class Ball final : public Shape {
- public:
-  explicit Ball(double radius) : radius_(radius) {}
-  Box bounds() const override { return {Vec3::Constant(-radius_), Vec3::Constant(radius_)}; }
-  std::vector<int> labels_along_z(double x, double y, const std::vector<double>& z) const override {
-    std::vector<int> labels;
-    for (const double at : z) labels.push_back(Vec3(x, y, at).norm() < radius_ ? 0 : -1);
-    return labels;
-  }
-  SurfacePoint exit(const Vec3& inside, const Vec3& outside) const override {
-    const Vec3 along = outside - inside;
-    const double a = along.squaredNorm(), b = along.dot(inside);
-    const double c = inside.squaredNorm() - radius_ * radius_;
-    const Vec3 p = inside + (-b + std::sqrt(b * b - a * c)) / a * along;
-    return {p, p.normalized()};
-  }
-  double volume() const override { return 4.0 / 3.0 * EIGEN_PI * std::pow(radius_, 3); }
-
- private:
-  double radius_;
-};
 
 TriangleMesh contour(const VoxelVolume& volume) { return SurfaceExtractor(volume).extract({}).rest(); }
 

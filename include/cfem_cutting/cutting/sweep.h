@@ -20,9 +20,9 @@ struct SweptTriangle {
 using MaterialFront = std::vector<std::optional<MaterialPoint>>;
 
 /// The surface between two positions of the front, two triangles for each pair of neighbouring points: where
-/// one of the four corners lies inside tissue, and one strip more on either side, so that no link near the
-/// skin slips by. Strips with a corner far from tissue and triangles with two equal corners are left out. The
-/// fronts must have equal length.
+/// one of the four corners is near links, and one strip more on either side, so that no link slips by. Strips
+/// with a corner far from tissue and triangles with two equal corners are left out. The fronts must have
+/// equal length.
 std::vector<SweptTriangle> sweep(const MaterialFront& before, const MaterialFront& after);
 
 }  // namespace cfem_cutting
