@@ -1,5 +1,5 @@
-// Times of the elastic solver on cubes of tissue: products, V-cycles, whole steps, cuts, start-up. Counters: time
-// per element in yardsticks (see yardstick.h), elements per second.
+// Times of the elastic solver on cubes of tissue: products, V-cycles, whole steps, cuts, start-up. Counters:
+// time per element in yardsticks (see yardstick.h), elements per second.
 
 #include <benchmark/benchmark.h>
 
@@ -32,7 +32,8 @@ int sever_sheet(VoxelVolume& volume, double above) {
     const Vec3 X = volume.centre(static_cast<int>(v));
     const Voxel& voxel = volume.voxels()[v];
     const bool crosses = X.y() < 0.0503 && X.y() + volume.lattice().spacing.y() >= 0.0503 && X.z() > above;
-    if (!crosses || !voxel.linked() || voxel.neighbour[3] < 0 || voxel.link[3] != LinkState::kIntact) continue;
+    if (!crosses || !voxel.linked() || voxel.neighbour[3] < 0 || voxel.link[3] != LinkState::kIntact)
+      continue;
     volume.sever({static_cast<int>(v), 1}, {Vec3(X.x(), 0.0503, X.z()), Vec3::UnitY()});
     ++severed;
   }

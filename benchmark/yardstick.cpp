@@ -28,7 +28,8 @@ Grid make_grid() {
   for (int e = 0; e < kBatches * kLanes; ++e) {
     const int i = e % kSide, j = e / kSide % kSide, k = e / (kSide * kSide);
     for (int c = 0; c < 8; ++c)
-      grid.nodes[e / kLanes][c * kLanes + e % kLanes] = (i + (c & 1)) + n * ((j + (c >> 1 & 1)) + n * (k + (c >> 2)));
+      grid.nodes[e / kLanes][c * kLanes + e % kLanes] =
+          (i + (c & 1)) + n * ((j + (c >> 1 & 1)) + n * (k + (c >> 2)));
   }
   for (int i = 0; i < 24 * 24; ++i) grid.stiffness[i] = static_cast<float>(i % 7) - 3.0f;
   std::array<float, 9 * kLanes> identity{};

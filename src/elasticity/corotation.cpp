@@ -45,8 +45,8 @@ struct Corotation::Lanes {
   std::vector<int> inverted;  // per batch
 };
 
-Corotation::Corotation(ElementSet elements, std::vector<const MeanGradient*> gradients, const Vec3& block_size,
-                       Kinematics kinematics)
+Corotation::Corotation(ElementSet elements, std::vector<const MeanGradient*> gradients,
+                       const Vec3& block_size, Kinematics kinematics)
     : elements_(std::move(elements)),
       gradient_(std::move(gradients)),
       block_size_(block_size),
@@ -92,9 +92,10 @@ void Corotation::respond_batch(int b, const NodeField& x, Lanes& lanes) const {
   double* energy = lanes.energy.data() + at * kLanes;
   bool regular[kLanes] = {};
   if (kinematics_ == Kinematics::kCorotational)
-    cfem_cutting::respond({x.data(), batches_.nodes_of(b), packed_gradient_.data() + at * ElementBatches::kEntries,
-                           block_size_.data(), packed_stiffness_.data() + at * kLanes, batch.shared, forces,
-                           rotations, energy, regular});
+    cfem_cutting::respond({x.data(), batches_.nodes_of(b),
+                           packed_gradient_.data() + at * ElementBatches::kEntries, block_size_.data(),
+                           packed_stiffness_.data() + at * kLanes, batch.shared, forces, rotations, energy,
+                           regular});
   for (int lane = 0; lane < batch.count; ++lane)
     if (!regular[lane])
       lanes.inverted[b] += respond_singly(batches_.element_of_lane[batch.first + lane], x, forces + lane,

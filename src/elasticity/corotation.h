@@ -29,7 +29,7 @@ class Corotation {
   Vec3 block_size_ = Vec3::Zero();
   Kinematics kinematics_ = Kinematics::kCorotational;
   ElementBatches batches_;
-  std::vector<double> packed_gradient_;     // (|batches| × 24 × lanes)
+  std::vector<double> packed_gradient_;          // (|batches| × 24 × lanes)
   std::vector<const double*> packed_stiffness_;  // (|batches| × lanes)
 };
 

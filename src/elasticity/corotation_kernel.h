@@ -8,16 +8,16 @@ namespace cfem_cutting {
 /// l at [16 i + l]. Let g be the mean gradients of the shape functions, F = Σ xₙ gₙᵀ, R its rotation and
 /// u = Rᵀx − X.
 struct CorotationBatch {
-  const double* x;                  ///< (3 × |nodes|), m
-  const int* nodes;                 ///< (8 × 16)
-  const double* gradient;           ///< (24 × 16), 1/m; entry 3 n + axis
-  const double* block_size;         ///< (3), m
-  const double* const* stiffness;   ///< (16): each (24 × 24), N/m, column by column
-  bool shared;                      ///< all lanes have the first one
-  double* forces;                   ///< (24 × 16), N: −∂energy/∂x
-  double* rotations;                ///< (9 × 16), R row by row
-  double* energy;                   ///< (16), J: ½ uᵀ K u
-  bool* regular;                    ///< (16): false where the element is flat, inverted or nearly so: no answer
+  const double* x;                 ///< (3 × |nodes|), m
+  const int* nodes;                ///< (8 × 16)
+  const double* gradient;          ///< (24 × 16), 1/m; entry 3 n + axis
+  const double* block_size;        ///< (3), m
+  const double* const* stiffness;  ///< (16): each (24 × 24), N/m, column by column
+  bool shared;                     ///< all lanes have the first one
+  double* forces;                  ///< (24 × 16), N: −∂energy/∂x
+  double* rotations;               ///< (9 × 16), R row by row
+  double* energy;                  ///< (16), J: ½ uᵀ K u
+  bool* regular;  ///< (16): false where the element is flat, inverted or nearly so: no answer
 };
 
 /// Answers with the widest instructions that this processor has. Rotations come by Newton's iteration (Higham

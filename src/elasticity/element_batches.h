@@ -11,8 +11,8 @@ namespace cfem_cutting {
 /// Elements in batches of SIMD lanes: those with one matrix together, then the others.
 struct ElementBatches {
   struct Batch {
-    int first;  ///< in element_of_lane
-    int count;  ///< ≤ kLanes
+    int first;    ///< in element_of_lane
+    int count;    ///< ≤ kLanes
     bool shared;  ///< all have one matrix
   };
 
@@ -47,7 +47,7 @@ struct ElementBatches {
     });
   }
 
-  static constexpr int kFewest = 2048;       ///< elements or nodes worth waking a thread for
+  static constexpr int kFewest = 2048;          ///< elements or nodes worth waking a thread for
   static constexpr int kEntries = 24 * kLanes;  ///< of a batch in `products`
 
   std::vector<Batch> batches;

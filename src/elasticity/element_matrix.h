@@ -12,9 +12,9 @@ using MeanGradient = Eigen::Matrix<double, 3, 8>;
 
 /// What an element needs at rest.
 struct ElementData {
-  ElementMatrix stiffness;                    ///< N/m
-  MeanGradient mean_gradient;                ///< 1/m, of the shape functions over the filled volume
-  Eigen::Matrix<double, 8, 1> mass;           ///< kg, row sums
+  ElementMatrix stiffness;           ///< N/m
+  MeanGradient mean_gradient;        ///< 1/m, of the shape functions over the filled volume
+  Eigen::Matrix<double, 8, 1> mass;  ///< kg, row sums
 };
 
 /// Weights (m³) of a quadrature at the block's 3 × 3 × 3 points {0, ½, 1}³. All integrands here are quadratic

@@ -58,7 +58,8 @@ void ElementProduct::pack_stiffness(Packed<Scalar>& packed) const {
     const ElementBatches::Batch& batch = batches_.batches[b];
     Scalar* out = packed.stiffness.data() + packed.stiffness_of_batch[b];
     for (int lane = 0; lane < (batch.shared ? 1 : batch.count); ++lane)
-      pack_matrix(*elements_.stiffness[batches_.element_of_lane[batch.first + lane]], batch.shared, out + lane);
+      pack_matrix(*elements_.stiffness[batches_.element_of_lane[batch.first + lane]], batch.shared,
+                  out + lane);
   }
   packed.products.resize(static_cast<std::size_t>(batches_.size()) * ElementBatches::kEntries);
   packed.rotations.assign(static_cast<std::size_t>(batches_.size()) * 9 * kLanes, Scalar{0});
@@ -84,8 +85,8 @@ void ElementProduct::multiply_all(const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>
   if (!packed.rotations_fit) pack_rotations(packed);
   batches_.for_each(*pool_, [&](int b) {
     multiply({packed.stiffness.data() + packed.stiffness_of_batch[b], batches_.batches[b].shared,
-              packed.rotations.data() + static_cast<std::size_t>(b) * 9 * kLanes, batches_.nodes_of(b), p.data(),
-              packed.products.data() + static_cast<std::size_t>(b) * ElementBatches::kEntries});
+              packed.rotations.data() + static_cast<std::size_t>(b) * 9 * kLanes, batches_.nodes_of(b),
+              p.data(), packed.products.data() + static_cast<std::size_t>(b) * ElementBatches::kEntries});
   });
   batches_.add_up(*pool_, packed.products, y);
 }

@@ -8,8 +8,8 @@ namespace cfem_cutting {
 
 using SingleField = Eigen::Matrix3Xf;  ///< a node field in single precision
 
-/// The product Σ R K Rᵀ p over the elements of a level, matrix-free: elements go through the kernel in batches
-/// of SIMD lanes, and each node then adds up the entries of its elements in a fixed order.
+/// The product Σ R K Rᵀ p over the elements of a level, matrix-free: elements go through the kernel in
+/// batches of SIMD lanes, and each node then adds up the entries of its elements in a fixed order.
 class ElementProduct {
  public:
   explicit ElementProduct(ThreadPool& pool) : pool_(&pool) {}

@@ -103,8 +103,8 @@ SolveReport Equilibrium::solve_newton(Multigrid& multigrid, const SolverOptions&
 bool Equilibrium::newton_step(Multigrid& multigrid, const SolverOptions& options, double tolerance,
                               const NodeField& f, ElasticResponse& elastic, NodeField& x,
                               SolveReport& total) const {
-  const LinearSystem system(multigrid, model_, elastic.rotations, {spring_, 1.0, &constraints_},
-                            held_.nodes, precision_for(tolerance));
+  const LinearSystem system(multigrid, model_, elastic.rotations, {spring_, 1.0, &constraints_}, held_.nodes,
+                            precision_for(tolerance));
   NodeField dx = NodeField::Zero(3, x.cols());
   bool held_moves = false;
   for (std::size_t i = 0; i < held_.nodes.size(); ++i) {

@@ -171,7 +171,8 @@ void LevelSystem::correct_for_constraints(const SingleField& r, float factor, Si
   }
 }
 
-/// Chebyshev's iteration (Saad 2003, algorithm 12.1) from x with residual r; r goes along to the end if wanted.
+/// Chebyshev's iteration (Saad 2003, algorithm 12.1) from x with residual r; r goes along to the end if
+/// wanted.
 void LevelSystem::polish(SingleField& x, SingleField& r, bool residual_wanted) const {
   const auto centre = static_cast<float>(0.5 * largest_ * (1.0 + kSmoothedPart));
   const auto half_width = static_cast<float>(0.5 * largest_ * (1.0 - kSmoothedPart));

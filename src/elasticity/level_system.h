@@ -69,7 +69,7 @@ class LevelSystem {
   float stiffness_factor_ = 1.0f;
   std::vector<ConstraintRow> constraints_;
   std::vector<Eigen::Matrix3f> inverse_at_rest_, inverse_;  // m/N, of nodes' blocks; zero for held nodes
-  Eigen::LDLT<Eigen::MatrixXf> compliance_;  // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
+  Eigen::LDLT<Eigen::MatrixXf> compliance_;                 // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
   Eigen::LLT<Eigen::MatrixXf> factors_;
   mutable SingleField step_, change_, residual_;  // scratch
 };

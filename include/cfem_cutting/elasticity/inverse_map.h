@@ -19,13 +19,13 @@ struct MaterialPoint {
 };
 
 /// Inverse of the deformation φ given by node positions: x ↦ X, by a spatial hash of the deformed elements
-/// and Newton's method on the trilinear map. A point is inside if X lies in a linked voxel of that very element
-/// and on the tissue's side of that voxel's surface links (planes of their Hermite data). Beyond a severed
-/// link it belongs to the voxel across, if it is on that one's side of the link too; else it is in the gap of
-/// an open cut. Where two places hold the point at once, the sides of a cut overlap: it counts as in the cut,
-/// in air. Points outside, up to `reach` blocks from tissue, are extrapolated from the nearest element; where
-/// that would land in the tissue of another element (an open cut), X is drawn back to the nearest point of
-/// the own element's tissue.
+/// and Newton's method on the trilinear map. A point is inside if X lies in a linked voxel of that very
+/// element and on the tissue's side of that voxel's surface links (planes of their Hermite data). Beyond a
+/// severed link it belongs to the voxel across, if it is on that one's side of the link too; else it is in
+/// the gap of an open cut. Where two places hold the point at once, the sides of a cut overlap: it counts as
+/// in the cut, in air. Points outside, up to `reach` blocks from tissue, are extrapolated from the nearest
+/// element; where that would land in the tissue of another element (an open cut), X is drawn back to the
+/// nearest point of the own element's tissue.
 class InverseMap {
  public:
   /// Keeps references: volume and mesh must outlive it; x is copied.
