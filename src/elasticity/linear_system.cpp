@@ -12,7 +12,7 @@ namespace {
 constexpr double kRounding = 1e-15;
 
 /// Conjugate gradients in single precision reduce a residual by no more than this at once.
-constexpr double kMostReduction = 1e-4;
+constexpr double kMostReduction = 1e-5;
 
 /// b − A dx on the free nodes.
 NodeField residual(const LinearSystem& system, const NodeField& b, const NodeField& dx) {
@@ -119,8 +119,8 @@ void add_constraint_forces(const std::vector<PointConstraint>& constraints, cons
 }
 
 SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx, double tolerance,
-                  int max_iterations, double length) {
-  const double load = free_load(system, b, dx);
+                  int max_iterations, double length, double least_load) {
+  const double load = std::max(free_load(system, b, dx), least_load);
   const double rounding = kRounding * system.multigrid().finest().mean_stiffness() * length *
                           std::sqrt(static_cast<double>(dx.cols()));
   const double goal = std::max(tolerance * load, rounding);
@@ -131,12 +131,12 @@ SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx,
     const double size = r.norm();
     report.residual = load > 0.0 ? size / load : 0.0;
     report.converged = size <= goal;
-    const bool stagnates = !(size < 0.5 * before);
+    const bool stagnates = !(size < 0.9 * before);
     if (report.converged || report.iterations >= max_iterations || stagnates) return report;
     before = size;
     SingleField scaled = (r / size).cast<float>(), change;
     report.iterations +=
-        conjugate_gradients(system, scaled, change, std::max(0.9 * goal / size, kMostReduction),
+        conjugate_gradients(system, scaled, change, std::max(0.8 * goal / size, kMostReduction),
                             max_iterations - report.iterations);
     dx += size * change.cast<double>();
   }

@@ -5,7 +5,7 @@
 namespace cfem_cutting {
 namespace {
 
-constexpr int kCoarsestNodes = 80;  // few enough for a dense solve
+constexpr int kCoarsestNodes = 40;  // few enough for a dense solve
 constexpr std::size_t kMostLevels = 12;
 
 std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constraints) {
