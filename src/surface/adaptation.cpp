@@ -109,7 +109,7 @@ bool holds_crease(const DualCell& cell) {
 void freeze_cut_ends(Contour& contour) {
   for (DualCell& cell : contour.cells())
     for (SheetGroup& group : cell.groups)
-      if (group.severed && group.adapted) group.frozen = group.adapted;
+      if (group.cut_end && group.adapted) group.frozen = group.adapted;
 }
 
 }  // namespace cfem_cutting

@@ -118,13 +118,13 @@ Stroke stroke_through_lattice_points(Dice& dice, const Tissue& tissue) {
     way = dice.step().cwiseProduct(half);
     sine = along.cross(way).norm() / (along.norm() * way.norm());
   }
-  const double reach = kOverhang * tissue.radius / sine;
+  const Vec3 middle = random_lattice_point(dice, tissue);
+  const double reach = (kOverhang * tissue.radius + (middle - tissue.centre).norm()) / sine;
   const int edge_steps = static_cast<int>(std::ceil(reach / along.norm()));
   const int way_steps = static_cast<int>(std::ceil(reach / way.norm()));
   Polyline edge;
   for (int i = -edge_steps; i <= edge_steps; ++i) edge.push_back(i * along);
   Stroke stroke{make_blade(edge, -way, 0.0), {}};
-  const Vec3 middle = random_lattice_point(dice, tissue);
   const bool jittered = dice.chance(0.5);
   const int stride = dice.integer(1, 4);
   for (int i = -way_steps; i <= way_steps + stride; i += stride) {

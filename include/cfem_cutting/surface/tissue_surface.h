@@ -46,7 +46,7 @@ class SurfaceExtractor {
   /// that were put on an earlier trace by `freeze` stay there.
   const TissueSurface& extract(const FrontTrace& trace);
 
-  /// Keeps the present virtual intersection points of cells with severed links when the front moves on, and
+  /// Keeps the present virtual intersection points of sheets in which a cut ends when the front moves on, and
   /// those that the next `extract` makes: a cut ends where the blade was, until the cut goes on through the
   /// same sheets.
   void freeze();
