@@ -26,9 +26,8 @@ SolveReport Integrator::step(const ElasticModel& model, ElasticState& state, dou
   for (std::size_t i = 0; i < held.nodes.size(); ++i)
     dx.col(held.nodes[i]) = held.positions[i] - state.x.col(held.nodes[i]);
 
-  SolveReport report =
-      solve(system, b, dx, options_.tolerance, options_.max_iterations, model.mesh().block_size().mean(),
-            (gravity * model.mass().transpose()).norm());
+  SolveReport report = solve(system, b, dx, options_.tolerance, options_.max_iterations,
+                             model.mesh().block_size().mean(), (gravity * model.mass().transpose()).norm());
   report.inverted_elements = elastic.inverted;
   state.x += dx;
   state.v = dx / dt;

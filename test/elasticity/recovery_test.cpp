@@ -19,7 +19,8 @@ NodeField ruin(const NodeField& rest, double edge, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   NodeField x = rest;
-  const int stretched = static_cast<int>(random() % 3), crushed = (stretched + 1 + static_cast<int>(random() % 2)) % 3;
+  const int stretched = static_cast<int>(random() % 3),
+            crushed = (stretched + 1 + static_cast<int>(random() % 2)) % 3;
   x.row(stretched) *= 2.0;
   x.row(crushed) *= 0.1;
   for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] += edge * uniform(random);
@@ -36,8 +37,8 @@ double distance_from_rest(const NodeField& x, const NodeField& rest) {
 
 TEST(Recovery, FromTwoHundredRuinedStates) {
   const double edge = 0.01;
-  const ElasticModel model(box_volume({0.04, 0.03, 0.03}, edge), 0, {kGelatine}, ElementKind::kIncompatibleModes,
-                           Kinematics::kCorotational);
+  const ElasticModel model(box_volume({0.04, 0.03, 0.03}, edge), 0, {kGelatine},
+                           ElementKind::kIncompatibleModes, Kinematics::kCorotational);
   SolverOptions options;
   options.threads = 1;
   options.rayleigh_mass = 10.0;  // 1/s: against spinning on for ever
