@@ -18,16 +18,16 @@ void Grips::find_nodes(const CompositeMesh& mesh) {
   }
 }
 
-bool Grips::move(const CompositeMesh& mesh, double time, const std::map<std::string, Pose>& frames) {
+double Grips::move(const CompositeMesh& mesh, double time, const std::map<std::string, Pose>& frames) {
   for (const auto& [name, pose] : frames)
     carriers_.try_emplace(name, Carrier{pose, pose}).first->second.now = pose;
-  bool moved = false;
+  double farthest = 0.0;
   for (std::size_t i = 0; i < held_.nodes.size(); ++i) {
     const Vec3 next = position(grip_of_held_[i], mesh.rest().col(held_.nodes[i]), time);
-    moved |= next != held_.positions[i];
+    farthest = std::max(farthest, (next - held_.positions[i]).norm());
     held_.positions[i] = next;
   }
-  return moved;
+  return farthest;
 }
 
 Vec3 Grips::position(int grip, const Vec3& X, double time) const {

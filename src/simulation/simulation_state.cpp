@@ -66,13 +66,16 @@ Simulation::State::State(const SimulationConfig& config_in, VoxelVolume uncut, c
 
 void Simulation::State::place_grips(const StepInput& input) {
   elapsed += config.dynamics.time_step;
-  grips_moved = grips.move(model.mesh(), elapsed, input.grips);
-  if (grips_moved && !contact.empty()) refresh_reference();
+  constexpr double kNoticeable = 0.02;  // of a voxel
+  grip_travel += grips.move(model.mesh(), elapsed, input.grips);
+  const bool outdated = grip_travel > kNoticeable * volume.lattice().spacing.minCoeff();
+  if (outdated && !contact.empty()) refresh_reference();
 }
 
 /// In contact the reference is solved for: at first touch, after each fracture that severs links, and while
 /// grips move.
 void Simulation::State::refresh_reference() {
+  grip_travel = 0.0;
   integrator.equilibrate(model, reference, config.tissue.gravity, grips.held(), {});
   pull_back = std::make_unique<InverseMap>(volume, model.mesh(), reference);
 }

@@ -19,8 +19,8 @@ class Grips {
 
   /// Positions at a time since the start, s. Frames that are missing stay where they were; a frame's first
   /// pose is where it takes hold.
-  /// @return whether a node moved
-  bool move(const CompositeMesh& mesh, double time, const std::map<std::string, Pose>& frames);
+  /// @return how far the farthest node moved, m
+  double move(const CompositeMesh& mesh, double time, const std::map<std::string, Pose>& frames);
 
   const HeldNodes& held() const { return held_; }
 
