@@ -1,6 +1,7 @@
 #include "level_system.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace cfem_cutting {
@@ -28,6 +29,11 @@ Mat3 inverse_or_zero(const Mat3& block) {
   const double size = block.trace();
   if (!(size > 0.0) || !(block.determinant() > 1e-15 * size * size * size)) return Mat3::Zero();
   return block.inverse();
+}
+
+/// A 3 × 3 block times a vector.
+Eigen::Vector3f times(const Eigen::Matrix<float, 4, 3>& block, const float* v) {
+  return (v[0] * block.col(0) + v[1] * block.col(1) + v[2] * block.col(2)).head<3>();
 }
 
 }  // namespace
@@ -76,27 +82,34 @@ float LevelSystem::mean_stiffness() const {
   return static_cast<float>(trace / (3.0 * diagonal_at_rest_.size()));
 }
 
+/// Calls work(begin, end) on small ranges of nodes, on several threads.
 template <typename Work>
 void LevelSystem::for_nodes(const Work& work) const {
+  constexpr int kPart = 256;  // stays in the cache
   product_.pool().for_range(static_cast<int>(held_.size()), ElementBatches::kFewest, [&](int begin, int end) {
-    for (int n = begin; n < end; ++n) work(n);
+    for (int n = begin; n < end; n += kPart) work(n, std::min(n + kPart, end));
   });
 }
 
 void LevelSystem::invert_at_rest() {
   inverse_at_rest_.assign(held_.size(), Eigen::Matrix3f::Zero());
-  for_nodes([&](int n) {
-    const Mat3 block = stiffness_factor_ * diagonal_at_rest_[n] + node_diagonal_[n] * Mat3::Identity();
-    if (!held_[n]) inverse_at_rest_[n] = inverse_or_zero(block).cast<float>();
+  added_ = node_diagonal_.transpose().replicate<3, 1>();
+  for_nodes([&](int begin, int end) {
+    for (int n = begin; n < end; ++n) {
+      const Mat3 block = stiffness_factor_ * diagonal_at_rest_[n] + node_diagonal_[n] * Mat3::Identity();
+      if (!held_[n]) inverse_at_rest_[n] = inverse_or_zero(block).cast<float>();
+    }
   });
 }
 
 /// A node's block turns with the first element there: a preconditioner needs no more.
 void LevelSystem::turn_inverses() {
-  inverse_.resize(held_.size());
-  for_nodes([&](int n) {
-    const Eigen::Matrix3f R = product_.rotation_at(n).cast<float>();
-    inverse_[n].noalias() = R * inverse_at_rest_[n] * R.transpose();
+  inverse_.assign(held_.size(), NodeBlock::Zero());
+  for_nodes([&](int begin, int end) {
+    for (int n = begin; n < end; ++n) {
+      const Eigen::Matrix3f R = product_.rotation_at(n).cast<float>();
+      inverse_[n].topRows<3>().noalias() = R * inverse_at_rest_[n] * R.transpose();
+    }
   });
 }
 
@@ -110,7 +123,7 @@ void LevelSystem::prepare_constraints() {
     const ConstraintRow& row = constraints_[i];
     for (int n = 0; n < 8; ++n) {
       const int node = nodes[row.element][n];
-      moved.col(node) += row.weights[n] * inverse_[node] * row.direction;
+      moved.col(node) += row.weights[n] * times(inverse_[node], row.direction.data());
     }
     for (int j = 0; j < count; ++j) {
       const ConstraintRow& other = constraints_[j];
@@ -126,7 +139,11 @@ void LevelSystem::prepare_constraints() {
 
 void LevelSystem::apply(const SingleField& p, SingleField& y) const {
   product_.apply(p, y);
-  for_nodes([&](int n) { y.col(n) = stiffness_factor_ * y.col(n) + node_diagonal_[n] * p.col(n); });
+  const float s = stiffness_factor_;
+  for_nodes([=, in = p.data(), d = added_.data(), out = y.data()](int begin, int end) {
+#pragma GCC ivdep
+    for (int i = 3 * begin; i < 3 * end; ++i) out[i] = s * out[i] + d[i] * in[i];
+  });
   add_constraints(p, 1.0f, y);
 }
 
@@ -143,7 +160,9 @@ void LevelSystem::add_constraints(const SingleField& p, float factor, SingleFiel
 /// z = factor M⁻¹ r with M the nodes' blocks and the constraints.
 void LevelSystem::scale(const SingleField& r, float factor, SingleField& z) const {
   z.resize(3, r.cols());
-  for_nodes([&](int n) { z.col(n).noalias() = factor * (inverse_[n] * r.col(n)); });
+  for_nodes([&](int begin, int end) {
+    for (int n = begin; n < end; ++n) z.col(n) = factor * times(inverse_[n], r.col(n).data());
+  });
   correct_for_constraints(r, factor, z);
 }
 
@@ -157,7 +176,7 @@ void LevelSystem::correct_for_constraints(const SingleField& r, float factor, Si
     Eigen::Vector3f at = Eigen::Vector3f::Zero();
     for (int n = 0; n < 8; ++n) {
       const int node = nodes[row.element][n];
-      at += row.weights[n] * (inverse_[node] * r.col(node));
+      at += row.weights[n] * times(inverse_[node], r.col(node).data());
     }
     along[i] = factor * row.direction.dot(at);
   }
@@ -166,9 +185,24 @@ void LevelSystem::correct_for_constraints(const SingleField& r, float factor, Si
     const ConstraintRow& row = constraints_[i];
     for (int n = 0; n < 8; ++n) {
       const int node = nodes[row.element][n];
-      z.col(node) -= row.weights[n] * along[i] * (inverse_[node] * row.direction);
+      z.col(node) -= row.weights[n] * along[i] * times(inverse_[node], row.direction.data());
     }
   }
+}
+
+/// x += step, r −= A step (of which the elements' part is in change_), step = keep step + add M⁻¹ r
+void LevelSystem::advance(float keep, float add, SingleField& x, SingleField& r) const {
+  const float s = stiffness_factor_;
+  for_nodes([&, x = x.data(), r = r.data(), step = step_.data(), change = change_.data(), d = added_.data()](
+                int begin, int end) {
+#pragma GCC ivdep
+    for (int i = 3 * begin; i < 3 * end; ++i) {
+      x[i] += step[i];
+      r[i] -= s * change[i] + d[i] * step[i];
+    }
+    for (int n = begin; n < end; ++n)
+      step_.col(n) = keep * step_.col(n) + add * times(inverse_[n], r + 3 * n);
+  });
 }
 
 /// Chebyshev's iteration (Saad 2003, algorithm 12.1) from x with residual r; r goes along to the end if
@@ -184,16 +218,12 @@ void LevelSystem::polish(SingleField& x, SingleField& r, bool residual_wanted) c
     const float keep = k < kDegree ? next * rho : 0.0f, add = k < kDegree ? 2.0f * next / half_width : 0.0f;
     product_.apply(step_, change_);
     add_constraints(step_, 1.0f / stiffness_factor_, change_);
-    for_nodes([&](int n) {
-      x.col(n) += step_.col(n);
-      r.col(n) -= stiffness_factor_ * change_.col(n) + node_diagonal_[n] * step_.col(n);
-      step_.col(n) = keep * step_.col(n) + add * (inverse_[n] * r.col(n));
-    });
+    advance(keep, add, x, r);
     if (k == kDegree) return;
     correct_for_constraints(r, add, step_);
     rho = next;
   }
-  for_nodes([&](int n) { x.col(n) += step_.col(n); });
+  x += step_;
 }
 
 void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const {

@@ -50,8 +50,11 @@ class LevelSystem {
   void solve(const SingleField& b, SingleField& x) const;
 
  private:
+  using NodeBlock = Eigen::Matrix<float, 4, 3>;  // 3 × 3 and a row of zeros, for four lanes
+
   template <typename Work>
   void for_nodes(const Work& work) const;
+  void advance(float keep, float add, SingleField& x, SingleField& r) const;
   void scale(const SingleField& r, float factor, SingleField& z) const;
   void correct_for_constraints(const SingleField& r, float factor, SingleField& z) const;
   void add_constraints(const SingleField& p, float factor, SingleField& y) const;
@@ -68,8 +71,10 @@ class LevelSystem {
   Eigen::VectorXf node_diagonal_;
   float stiffness_factor_ = 1.0f;
   std::vector<ConstraintRow> constraints_;
-  std::vector<Eigen::Matrix3f> inverse_at_rest_, inverse_;  // m/N, of nodes' blocks; zero for held nodes
-  Eigen::LDLT<Eigen::MatrixXf> compliance_;                 // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
+  SingleField added_;                             // N/m, the node diagonal per entry
+  std::vector<Eigen::Matrix3f> inverse_at_rest_;  // m/N, of the nodes' blocks; zero for held nodes
+  std::vector<NodeBlock> inverse_;                // m/N, turned
+  Eigen::LDLT<Eigen::MatrixXf> compliance_;       // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
   Eigen::LLT<Eigen::MatrixXf> factors_;
   mutable SingleField step_, change_, residual_;  // scratch
 };
