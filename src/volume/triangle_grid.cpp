@@ -19,8 +19,9 @@ Lattice make_cells(const TriangleMesh& mesh, int axes) {
   Box bounds;
   for (const Vec3& vertex : mesh.vertices) bounds.extend(vertex);
   const Vec3 extent = bounds.sizes().cwiseMax(1e-12 + 1e-6 * bounds.sizes().maxCoeff());
+  const double few = 4.0;
   const double cell =
-      extent.maxCoeff() / std::max(1.0, std::sqrt(static_cast<double>(mesh.triangles.size())));
+      extent.maxCoeff() / std::max(1.0, std::sqrt(static_cast<double>(mesh.triangles.size()) / few));
   Lattice cells;
   cells.origin = bounds.min();
   for (int axis = 0; axis < 3; ++axis) {
