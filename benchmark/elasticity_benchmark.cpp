@@ -25,7 +25,8 @@ ElasticModel model_of(const VoxelVolume& volume, const Material& material = kTis
   return {volume, 0, {material}, ElementKind::kIncompatibleModes, Kinematics::kCorotational};
 }
 
-/// Severs the links that cross the plane y = 0.0503 below the height z.
+/// Severs the links that cross the plane y = 0.0503 above a height.
+/// @return how many
 int sever_sheet(VoxelVolume& volume, double above) {
   int severed = 0;
   for (std::size_t v = 0; v < volume.voxels().size(); ++v) {

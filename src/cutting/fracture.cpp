@@ -37,9 +37,4 @@ Fracture decide(const FractureOptions& options, const std::vector<Candidate>& ca
   return fracture;
 }
 
-void drop_far(std::vector<Candidate>& candidates, double max_distance) {
-  const auto far = [&](const Candidate& c) { return c.front_distance > max_distance; };
-  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), far), candidates.end());
-}
-
 }  // namespace cfem_cutting

@@ -32,8 +32,9 @@ Mat3 inverse_or_zero(const Mat3& block) {
 }
 
 /// A 3 × 3 block times a vector.
-Eigen::Vector3f times(const Eigen::Matrix<float, 4, 3>& block, const float* v) {
-  return (v[0] * block.col(0) + v[1] * block.col(1) + v[2] * block.col(2)).head<3>();
+template <typename Block>
+Eigen::Vector3f times(const Block& block, const float* v) {
+  return (v[0] * block.col(0) + v[1] * block.col(1) + v[2] * block.col(2)).template head<3>();
 }
 
 }  // namespace
@@ -102,7 +103,8 @@ void LevelSystem::invert_at_rest() {
   });
 }
 
-/// A node's block turns with the first element there: a preconditioner needs no more.
+/// A node's block turns with the first element there. That is exact where rotations are alike; where they
+/// aren't, the V-cycle loses quality, and conjugate gradients notice if it is no longer positive.
 void LevelSystem::turn_inverses() {
   inverse_.assign(held_.size(), NodeBlock::Zero());
   for_nodes([&](int begin, int end) {
@@ -240,40 +242,43 @@ void LevelSystem::smooth(const SingleField& b, SingleField& x) const {
 }
 
 void LevelSystem::factorise() {
-  const Eigen::Index size = 3 * static_cast<Eigen::Index>(held_.size());
-  Eigen::MatrixXf A = Eigen::MatrixXf::Zero(size, size);
   const ElementSet& elements = product_.elements();
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](int row_node, int column_node, const Mat3& block) {
+    if (held_[row_node] || held_[column_node]) return;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) entries.emplace_back(3 * row_node + i, 3 * column_node + j, block(i, j));
+  };
   for (int e = 0; e < elements.size(); ++e) {
     const Mat3& R = product_.rotations()[e];
     for (int n = 0; n < 8; ++n)
       for (int m = 0; m < 8; ++m)
-        A.block<3, 3>(3 * elements.nodes[e][n], 3 * elements.nodes[e][m]) +=
-            (stiffness_factor_ * R * elements.stiffness[e]->block<3, 3>(3 * n, 3 * m) * R.transpose())
-                .cast<float>();
+        add(elements.nodes[e][n], elements.nodes[e][m],
+            stiffness_factor_ * R * elements.stiffness[e]->block<3, 3>(3 * n, 3 * m) * R.transpose());
   }
-  for (const ConstraintRow& row : constraints_)
+  for (const ConstraintRow& row : constraints_) {
+    const Vec3 d = row.direction.cast<double>();
     for (int n = 0; n < 8; ++n)
       for (int m = 0; m < 8; ++m)
-        A.block<3, 3>(3 * elements.nodes[row.element][n], 3 * elements.nodes[row.element][m]) +=
-            row.stiffness * row.weights[n] * row.weights[m] * row.direction * row.direction.transpose();
-  const float smallest = 1e-6f * A.diagonal().maxCoeff();  // against rounding in single precision
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const auto node = static_cast<std::size_t>(i / 3);
-    A(i, i) += node_diagonal_[node] + smallest;
-    if (!held_[node]) continue;
-    A.row(i).setZero();
-    A.col(i).setZero();
-    A(i, i) = 1.0f;
+        add(elements.nodes[row.element][n], elements.nodes[row.element][m],
+            row.stiffness * row.weights[n] * row.weights[m] * d * d.transpose());
   }
+  const double shift = 1e-7 * mean_stiffness();  // rigid motions of free bodies
+  for (int n = 0; n < static_cast<int>(held_.size()); ++n)
+    for (int i = 3 * n; i < 3 * n + 3; ++i)
+      entries.emplace_back(i, i, held_[n] ? 1.0 : node_diagonal_[n] + shift);
+  const auto size = 3 * static_cast<Eigen::Index>(held_.size());
+  Eigen::SparseMatrix<double> A(size, size);
+  A.setFromTriplets(entries.begin(), entries.end());
   factors_.compute(A);
 }
 
 void LevelSystem::solve(const SingleField& b, SingleField& x) const {
-  x = b;
+  Eigen::VectorXd flat = Eigen::Map<const Eigen::VectorXf>(b.data(), b.size()).cast<double>();
   for (std::size_t n = 0; n < held_.size(); ++n)
-    if (held_[n]) x.col(n).setZero();
-  Eigen::Map<Eigen::VectorXf> flat(x.data(), x.size());
-  factors_.solveInPlace(flat);
+    if (held_[n]) flat.segment<3>(3 * static_cast<Eigen::Index>(n)).setZero();
+  if (factors_.info() == Eigen::Success) flat = factors_.solve(flat).eval();
+  x = Eigen::Map<const NodeField>(flat.data(), 3, b.cols()).cast<float>();
 }
 
 }  // namespace cfem_cutting

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 #include <vector>
 
 #include "element_product.h"
@@ -45,7 +46,8 @@ class LevelSystem {
   /// x on towards A⁻¹ b.
   void smooth(const SingleField& b, SingleField& x) const;
 
-  /// x = A⁻¹ b by Cholesky's factors, which `factorise` makes.
+  /// x = A⁻¹ b by Cholesky's factors, which `factorise` makes. Sparse: tissue in many pieces has many
+  /// coarsest elements.
   void factorise();
   void solve(const SingleField& b, SingleField& x) const;
 
@@ -75,7 +77,7 @@ class LevelSystem {
   std::vector<Eigen::Matrix3f> inverse_at_rest_;  // m/N, of the nodes' blocks; zero for held nodes
   std::vector<NodeBlock> inverse_;                // m/N, turned
   Eigen::LDLT<Eigen::MatrixXf> compliance_;       // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
-  Eigen::LLT<Eigen::MatrixXf> factors_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
   mutable SingleField step_, change_, residual_;  // scratch
 };
 

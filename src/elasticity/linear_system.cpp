@@ -61,6 +61,7 @@ int conjugate_gradients(const LinearSystem& system, SingleField& r, SingleField&
   for (; iteration < max_iterations && size > goal; ++iteration) {
     multigrid.precondition(r, z);
     const double next_rz = sum([&](int n) { return r.col(n).dot(z.col(n)); });
+    if (!(next_rz > 0.0)) break;
     const auto keep = static_cast<float>(iteration > 0 ? next_rz / rz : 0.0);
     rz = next_rz;
     p = z + keep * p;
@@ -69,7 +70,7 @@ int conjugate_gradients(const LinearSystem& system, SingleField& r, SingleField&
     const double curvature = sum([&](int n) { return p.col(n).dot(Ap.col(n)); });
     if (!(curvature > 0.0)) break;
     const auto length = static_cast<float>(rz / curvature);
-    size = std::sqrt(sum([&](int n) {
+    size = std::sqrt(sum([&](int n) {  // takes the step, too
       x.col(n) += length * p.col(n);
       r.col(n) -= length * Ap.col(n);
       return r.col(n).squaredNorm();
@@ -126,14 +127,20 @@ SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx,
   const double goal = std::max(tolerance * load, rounding);
 
   SolveReport report;
+  NodeField last = dx;
   for (double before = std::numeric_limits<double>::infinity();;) {
     const NodeField r = residual(system, b, dx);
     const double size = r.norm();
+    if (!(size < before)) {  // rounding, or worse
+      dx = last;
+      return report;
+    }
     report.residual = load > 0.0 ? size / load : 0.0;
     report.converged = size <= goal;
     const bool stagnates = !(size < 0.9 * before);
     if (report.converged || report.iterations >= max_iterations || stagnates) return report;
     before = size;
+    last = dx;
     SingleField scaled = (r / size).cast<float>(), change;
     report.iterations +=
         conjugate_gradients(system, scaled, change, std::max(0.8 * goal / size, kMostReduction),

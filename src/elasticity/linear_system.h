@@ -6,8 +6,7 @@
 
 namespace cfem_cutting {
 
-/// Single precision carries a relative residual of about 1e-6; residuals are taken in double where less is
-/// asked for.
+/// Residuals are taken in double where less is asked for than single precision carries.
 enum class Precision { kSingle, kDouble };
 inline Precision precision_for(double tolerance) {
   return tolerance < 1e-5 ? Precision::kDouble : Precision::kSingle;

@@ -1,11 +1,14 @@
 #include "multigrid.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "rotation.h"
 
 namespace cfem_cutting {
 namespace {
 
-constexpr int kCoarsestNodes = 40;  // few enough for a dense solve
+constexpr int kCoarsestNodes = 40;  // few enough to be factorised in every solve
 constexpr std::size_t kMostLevels = 12;
 
 std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constraints) {
@@ -21,23 +24,22 @@ std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constrain
 
 /// Held rows interpolate nothing.
 Interpolation without_held(const Interpolation& all, const std::vector<char>& held) {
-  Interpolation free;
+  Interpolation kept;
   for (int row = 0; row < all.rows(); ++row) {
     for (int i = all.first[row]; i < all.first[row + 1] && !held[row]; ++i) {
-      free.node.push_back(all.node[i]);
-      free.weight.push_back(all.weight[i]);
+      kept.node.push_back(all.node[i]);
+      kept.weight.push_back(all.weight[i]);
     }
-    free.first.push_back(static_cast<int>(free.node.size()));
+    kept.first.push_back(static_cast<int>(kept.node.size()));
   }
-  return free;
+  return kept;
 }
 
 }  // namespace
 
 void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held) {
   if (version_ == model.version() && held_ == held) return;
-  version_ = model.version();
-  held_ = held;
+  version_ = 0;
   std::vector<char> flags(model.mesh().node_count(), 0);
   for (int node : held) flags[node] = 1;
   levels_.clear();
@@ -57,6 +59,8 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
     std::vector<char> none(coarsening.coarse.node_count, 0);
     add_level(std::move(coarsening.coarse), std::move(none));
   }
+  version_ = model.version();
+  held_ = held;
 }
 
 void Multigrid::add_level(ElementSet elements, std::vector<char> held) {

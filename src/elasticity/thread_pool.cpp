@@ -11,8 +11,8 @@ namespace cfem_cutting {
 
 namespace {
 
-/// Turns of waiting awake, some 20 µs: the parts of a solve follow each other faster than a thread falls
-/// asleep.
+/// Turns of waiting awake, some tens of microseconds: the parts of a solve follow each other faster than a
+/// thread falls asleep.
 constexpr int kSpins = 1000;
 
 void pause() {

@@ -127,8 +127,7 @@ void Simulation::State::rebuild(const Fracture& fracture) {
   pieces = find_pieces(volume);
   grips.find_nodes(model.mesh());
   grips.move(model.mesh(), elapsed, {});
-  integrator.equilibrate(model, reference, config.tissue.gravity, grips.held(), {});
-  pull_back = std::make_unique<InverseMap>(volume, model.mesh(), reference);
+  refresh_reference();
 }
 
 /// The cut ends at the front now: the surface keeps its end there, and the blade binds there anew.

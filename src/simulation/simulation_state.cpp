@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <stdexcept>
 
 #include "cfem_cutting/elasticity/floating.h"
 
@@ -67,21 +68,23 @@ Simulation::State::State(const SimulationConfig& config_in, VoxelVolume uncut, c
 void Simulation::State::place_grips(const StepInput& input) {
   elapsed += config.dynamics.time_step;
   constexpr double kNoticeable = 0.02;  // of a voxel
-  grip_travel += grips.move(model.mesh(), elapsed, input.grips);
+  grip_step = grips.move(model.mesh(), elapsed, input.grips);
+  grip_travel += grip_step;
   const bool outdated = grip_travel > kNoticeable * volume.lattice().spacing.minCoeff();
   if (outdated && !contact.empty()) refresh_reference();
 }
 
-/// In contact the reference is solved for: at first touch, after each fracture that severs links, and while
-/// grips move.
+/// In contact the reference is solved for: at first touch, after each fracture that severs links, and when
+/// grips have moved noticeably.
 void Simulation::State::refresh_reference() {
   grip_travel = 0.0;
-  integrator.equilibrate(model, reference, config.tissue.gravity, grips.held(), {});
+  reference_converged =
+      integrator.equilibrate(model, reference, config.tissue.gravity, grips.held(), {}).converged;
   pull_back = std::make_unique<InverseMap>(volume, model.mesh(), reference);
 }
 
-/// Without the blade the tissue is its own reference, unless it still swings: a blade in its cut would seem
-/// to go to and fro.
+/// Without the blade the tissue is its own reference, unless it still swings (faster than grips carry it): a
+/// blade in its cut would seem to go to and fro.
 void Simulation::State::follow_free_state() {
   constexpr double kNegligible = 1.0e-4;  // of a block
   constexpr double kSwing = 0.05;         // of a block in a step
@@ -91,9 +94,10 @@ void Simulation::State::follow_free_state() {
     if (!floating[n]) swing = std::max(swing, elastic.v.col(n).norm() * config.dynamics.time_step);
   NodeField next = elastic.x;
   for (Eigen::Index n = 0; n < reference.cols(); ++n)
-    if (!floating[n] && swing > kSwing * block) next.col(n) = reference.col(n);
+    if (!floating[n] && swing > kSwing * block + grip_step) next.col(n) = reference.col(n);
   if ((next - reference).cwiseAbs().maxCoeff() < kNegligible * block) return;
   reference = std::move(next);
+  reference_converged = true;
   pull_back = std::make_unique<InverseMap>(volume, model.mesh(), reference);
 }
 
@@ -135,11 +139,12 @@ void Simulation::State::solve(StepReport& report) {
   } else {
     solved = integrator.step(model, elastic, config.dynamics.time_step, gravity, grips.held(), constraints);
   }
+  if (!elastic.x.allFinite()) throw std::runtime_error("the tissue's positions are not finite any more");
   contact.take_forces(constraints, elastic.x);
   if (contact.empty()) follow_free_state();
   report.iterations = solved.iterations;
   report.residual = solved.residual;
-  report.converged = solved.converged;
+  report.converged = solved.converged && reference_converged;
   report.inverted_elements = solved.inverted_elements;
 }
 

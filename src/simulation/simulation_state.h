@@ -68,7 +68,9 @@ struct Simulation::State {
   double cut_area = 0.0;           // m²
   double blade_work = 0.0;         // J
   double elapsed = 0.0;            // s, since the start
-  double grip_travel = 0.0;        // m, since the reference was solved for
+  bool reference_converged = true;
+  double grip_step = 0.0;    // m, in this step
+  double grip_travel = 0.0;  // m, since the reference was solved for
   std::vector<std::string> warnings;
 };
 

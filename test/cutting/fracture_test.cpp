@@ -68,15 +68,6 @@ TEST(Fracture, SteadyLoadMakesASaw) {
   EXPECT_EQ(fractures, 100 / 8);  // the first multiple of 0.4 mm above 3 mm is the eighth
 }
 
-TEST(Fracture, FarCandidatesAreDropped) {
-  std::vector<Candidate> candidates{candidate(0, 0.0), candidate(1, 0.0), candidate(2, 0.0)};
-  candidates[1].front_distance = 0.009;
-  candidates[2].front_distance = std::numeric_limits<double>::infinity();
-  drop_far(candidates, 2.0 * kBlock);
-  ASSERT_EQ(candidates.size(), 1u);
-  EXPECT_EQ(candidates[0].crossing.link.voxel, 0);
-}
-
 Pose far_away() {
   Pose pose = Pose::Identity();
   pose.translate(Vec3(0.4, -0.3, 2.0));

@@ -39,10 +39,6 @@ struct Fracture {
 Fracture decide(const FractureOptions& options, const std::vector<Candidate>& candidates,
                 double contact_offset, double block);
 
-/// Drops candidates whose crossing is farther than max_distance (m; two blocks) from the front: an old stroke
-/// is not cut by a later, distant deformation.
-void drop_far(std::vector<Candidate>& candidates, double max_distance);
-
 /// Displacement since the reference state minus the best-fit rigid motion of the piece.
 class OffsetField {
  public:

@@ -1,0 +1,136 @@
+// The V-cycle as a preconditioner, from inside.
+
+#include "multigrid.h"
+
+#include <gtest/gtest.h>
+
+#include "cfem_cutting/volume/voxel_volume.h"
+#include "specimens.h"
+
+namespace cfem_cutting {
+namespace {
+
+const Material kTissue{-1, 1e4, 0.45, 1060.0};
+
+ElasticModel model_of(const VoxelVolume& volume) {
+  return {volume, 0, {kTissue}, ElementKind::kIncompatibleModes, Kinematics::kCorotational};
+}
+
+/// A tilted block, cut halfway through.
+VoxelVolume cut_block() {
+  VoxelVolume volume = tilted_volume({0.12, 0.1, 0.09}, 0.01);
+  const Vec3 centre = volume.lattice().centre(volume.lattice().size / 2);
+  for (std::size_t v = 0; v < volume.voxels().size(); ++v) {
+    const Voxel& voxel = volume.voxels()[v];
+    const Vec3 X = volume.centre(static_cast<int>(v));
+    const bool crosses = X.x() < centre.x() && X.x() + 0.01 >= centre.x() && X.z() > centre.z();
+    if (crosses && voxel.linked() && voxel.neighbour[1] >= 0 && voxel.link[1] == LinkState::kIntact)
+      volume.sever({static_cast<int>(v), 0}, {Vec3(centre.x(), X.y(), X.z()), Vec3::UnitX()});
+  }
+  return volume;
+}
+
+struct Cycle : testing::Test {
+  VoxelVolume volume = cut_block();
+  ElasticModel model = model_of(volume);
+  int count = model.mesh().node_count();
+  NodeField x = model.mesh().rest();
+  std::vector<int> held{0, 1, 2, 3, 10};
+  std::vector<PointConstraint> constraints;
+  ThreadPool pool{1};
+  Multigrid multigrid{pool};
+
+  void SetUp() override {
+    for (Eigen::Index n = 0; n < x.cols(); ++n)  // bent
+      x.col(n) = Eigen::AngleAxisd(8.0 * x(0, n), Vec3(0.3, 1.0, 0.2).normalized()) * Vec3(x.col(n));
+    for (const int voxel : {3, 40}) {
+      PointConstraint c;
+      c.at = model.mesh().embed(voxel, volume.centre(voxel));
+      c.direction = Vec3(1.0, 2.0, -1.0).normalized();
+      c.stiffness = 2e3;
+      constraints.push_back(c);
+    }
+    multigrid.arrange(model, held);
+    multigrid.set(model.rotations(x), {Eigen::VectorXd::Constant(count, 0.5), 2.0, &constraints});
+  }
+
+  SingleField random(unsigned seed) const {
+    std::srand(seed);
+    SingleField field = SingleField::Random(3, count);
+    for (int node : held) field.col(node).setZero();
+    return field;
+  }
+
+  static double dot(const SingleField& a, const SingleField& b) {
+    return a.cast<double>().cwiseProduct(b.cast<double>()).sum();
+  }
+};
+
+TEST_F(Cycle, IsSymmetricAndPositive) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    const SingleField a = random(2 * seed), b = random(2 * seed + 1);
+    SingleField Ba, Bb;
+    multigrid.precondition(a, Ba);
+    multigrid.precondition(b, Bb);
+    EXPECT_NEAR(dot(a, Bb), dot(Ba, b), 1e-5 * std::sqrt(dot(a, Ba) * dot(b, Bb)));
+    EXPECT_GT(dot(a, Ba), 0.0);
+    for (int node : held) EXPECT_EQ(Ba.col(node).norm(), 0.0f);
+  }
+}
+
+TEST_F(Cycle, TakesMostOfAnyErrorAway) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    SingleField error = random(seed), r, z;
+    multigrid.finest().apply(error, r);
+    for (int node : held) r.col(node).setZero();
+    const double before = dot(error, r);
+    multigrid.precondition(r, z);
+    error -= z;
+    multigrid.finest().apply(error, r);
+    for (int node : held) r.col(node).setZero();
+    EXPECT_LT(dot(error, r), 0.3 * before);
+  }
+}
+
+TEST_F(Cycle, InterpolationKeepsRigidTranslations) {
+  const Coarsening coarsening(model.element_set());
+  EXPECT_LT(coarsening.coarse.size(), model.element_set().size() / 3);
+  const SingleField ones = SingleField::Ones(3, coarsening.coarse.node_count);
+  SingleField fine;
+  coarsening.interpolation.apply(pool, ones, fine);
+  EXPECT_LT((fine.array() - 1.0f).abs().maxCoeff(), 1e-6f);
+}
+
+TEST_F(Cycle, FollowsTheModel) {
+  SingleField before, after;
+  const SingleField r = random(1);
+  multigrid.precondition(r, before);
+  model.update(volume);  // nothing was severed
+  multigrid.arrange(model, held);
+  multigrid.set(model.rotations(x), {Eigen::VectorXd::Constant(count, 0.5), 2.0, &constraints});
+  multigrid.precondition(r, after);
+  EXPECT_EQ(before, after);
+}
+
+TEST(Multigrid, TissueInManyPiecesIsSolved) {
+  VoxelVolume volume = box_volume({0.18, 0.18, 0.06}, 0.01);
+  for (int v = 0; v < static_cast<int>(volume.voxels().size()); ++v)
+    for (int axis = 0; axis < 3; ++axis)
+      if (volume.voxel(v).index[axis] % 2 == 1 && volume.voxel(v).neighbour[2 * axis + 1] >= 0)
+        volume.sever({v, axis}, {volume.centre(v) + 0.005 * Vec3::Unit(axis), Vec3::Unit(axis)});
+  const ElasticModel model = model_of(volume);
+  EXPECT_GE(find_pieces(volume).count(), 243);  // cubes of two voxels an edge
+  SolverOptions options;
+  options.threads = 1;
+  Integrator integrator(options);
+  ElasticState state{model.mesh().rest(), NodeField::Zero(3, model.mesh().node_count())};
+  state.v.row(0).setRandom();
+  for (int step = 0; step < 3; ++step) {
+    const SolveReport report = integrator.step(model, state, 0.01, {0, 0, -9.81}, {}, {});
+    EXPECT_TRUE(report.converged);
+    EXPECT_LE(report.iterations, 12);
+  }
+}
+
+}  // namespace
+}  // namespace cfem_cutting
