@@ -121,7 +121,8 @@ Vec3i image_size(const std::string& path, const Header& header) {
   bool three = dimensions >= 3 && dimensions <= 7;
   for (int n = 4; three && n <= dimensions; ++n) three = header.dim[n] == 1;
   for (int n = 1; three && n <= 3; ++n)
-    three = header.dim[n] >= 1 && header.dim[n] <= std::numeric_limits<int>::max();
+    three =
+        header.dim[n] >= std::numeric_limits<int>::min() && header.dim[n] <= std::numeric_limits<int>::max();
   if (!three) {
     std::ostringstream dim;
     for (const std::int64_t n : header.dim) dim << ' ' << n;
