@@ -127,6 +127,7 @@ SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx,
   const double goal = std::max(tolerance * load, rounding);
 
   SolveReport report;
+  report.converged = false;  // nor if the load is not finite
   NodeField last = dx;
   for (double before = std::numeric_limits<double>::infinity();;) {
     const NodeField r = residual(system, b, dx);
