@@ -66,7 +66,7 @@ void product(benchmark::State& state) {
   ThreadPool pool(1);
   ElementProduct product(pool);
   product.arrange(model.element_set());
-  const SingleField x = model.mesh().rest().cast<float>();
+  const SingleField x = to_quads(model.mesh().rest());
   SingleField y;
   for (auto _ : state) product.apply(x, y);
   report(state, model.mesh().elements().size());
@@ -82,7 +82,7 @@ void v_cycle(benchmark::State& state) {
   multigrid.arrange(model, held.nodes);
   multigrid.set(model.rotations(model.mesh().rest()),
                 {Eigen::VectorXd::Zero(model.mesh().node_count()), 1.0, &none});
-  const SingleField r = SingleField::Random(3, model.mesh().node_count());
+  const SingleField r = to_quads(NodeField::Random(3, model.mesh().node_count()));
   SingleField z;
   for (auto _ : state) multigrid.precondition(r, z);
   report(state, model.mesh().elements().size());

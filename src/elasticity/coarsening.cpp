@@ -134,16 +134,16 @@ Interpolation Interpolation::transposed(int columns) const {
   return t;
 }
 
-void Interpolation::apply(ThreadPool& pool, const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const {
-  y = Eigen::Matrix3Xf::Zero(3, rows());
+void Interpolation::apply(ThreadPool& pool, const Eigen::Matrix4Xf& x, Eigen::Matrix4Xf& y) const {
+  y = Eigen::Matrix4Xf::Zero(4, rows());
   add(pool, x, y);
 }
 
-void Interpolation::add(ThreadPool& pool, const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const {
+void Interpolation::add(ThreadPool& pool, const Eigen::Matrix4Xf& x, Eigen::Matrix4Xf& y) const {
   constexpr int kFewest = 4096;  // rows worth waking a thread for
   pool.for_range(rows(), kFewest, [&](int begin, int end) {
     for (int row = begin; row < end; ++row) {
-      Eigen::Vector3f sum = y.col(row);
+      Eigen::Vector4f sum = y.col(row);
       for (int i = first[row]; i < first[row + 1]; ++i) sum += weight[i] * x.col(node[i]);
       y.col(row) = sum;
     }

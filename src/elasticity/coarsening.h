@@ -17,8 +17,8 @@ struct Interpolation {
   Interpolation transposed(int columns) const;
 
   /// y_i = Σ w x, or y_i += Σ w x
-  void apply(ThreadPool& pool, const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const;
-  void add(ThreadPool& pool, const Eigen::Matrix3Xf& x, Eigen::Matrix3Xf& y) const;
+  void apply(ThreadPool& pool, const Eigen::Matrix4Xf& x, Eigen::Matrix4Xf& y) const;
+  void add(ThreadPool& pool, const Eigen::Matrix4Xf& x, Eigen::Matrix4Xf& y) const;
 };
 
 /// The next coarser level: blocks of twice the edge, by the same rule as the composite elements. Elements

@@ -37,11 +37,10 @@ Positions rest_frame_forces(const ElementMatrix& K, const Positions& displacemen
 /// Answers of all lanes.
 struct Corotation::Lanes {
   explicit Lanes(std::size_t batches)
-      : forces(batches * ElementBatches::kEntries),
-        rotations(batches * 9 * kLanes),
+      : rotations(batches * 9 * kLanes),
         energy(batches * kLanes),
         inverted(batches, 0) {}
-  std::vector<double> forces, rotations, energy;
+  std::vector<double> rotations, energy;
   std::vector<int> inverted;  // per batch
 };
 
@@ -51,54 +50,55 @@ Corotation::Corotation(ElementSet elements, std::vector<const MeanGradient*> gra
       gradient_(std::move(gradients)),
       block_size_(block_size),
       kinematics_(kinematics),
-      batches_(elements_) {
-  packed_gradient_.assign(static_cast<std::size_t>(batches_.size()) * ElementBatches::kEntries, 0.0);
-  packed_stiffness_.reserve(static_cast<std::size_t>(batches_.size()) * kLanes);
-  for (int b = 0; b < batches_.size(); ++b) {
-    const ElementBatches::Batch& batch = batches_.batches[b];
+      tiles_(elements_) {
+  packed_gradient_.assign(static_cast<std::size_t>(tiles_.size()) * 24 * kLanes, 0.0);
+  packed_stiffness_.reserve(static_cast<std::size_t>(tiles_.size()) * kLanes);
+  for (int b = 0; b < tiles_.size(); ++b) {
+    const ElementTiles::Batch& batch = tiles_.batches[b];
     for (int lane = 0; lane < kLanes; ++lane) {
-      const int e = batches_.element_of_lane[batch.first + std::min(lane, batch.count - 1)];
+      const int e = tiles_.element_of_lane[batch.first + std::min(lane, batch.count - 1)];
       packed_stiffness_.push_back(elements_.stiffness[e]->data());
       for (int i = 0; i < 24; ++i)
-        packed_gradient_[static_cast<std::size_t>(b) * ElementBatches::kEntries + i * kLanes + lane] =
+        packed_gradient_[static_cast<std::size_t>(b) * 24 * kLanes + i * kLanes + lane] =
             gradient_[e]->data()[i];
     }
   }
 }
 
 ElasticResponse Corotation::respond(const NodeField& x, ThreadPool& pool) const {
-  Lanes lanes(batches_.size());
-  batches_.for_each(pool, [&](int b) { respond_batch(b, x, lanes); });
+  Lanes lanes(tiles_.size());
   ElasticResponse response;
-  batches_.add_up(pool, lanes.forces, response.forces);
+  response.forces.resize(3, x.cols());
+  tiles_.sum_up<double>(
+      pool, [&](int b, double* forces) { respond_batch(b, x, forces, lanes); },
+      [&](int node, const Eigen::Vector4d& sum) { response.forces.col(node) = sum.head<3>(); });
   response.rotations.resize(elements_.size());
-  for (int b = 0; b < batches_.size(); ++b) {
-    const ElementBatches::Batch& batch = batches_.batches[b];
+  for (int b = 0; b < tiles_.size(); ++b) {
+    const ElementTiles::Batch& batch = tiles_.batches[b];
     response.inverted += lanes.inverted[b];
     for (int lane = 0; lane < batch.count; ++lane) {
       response.energy += lanes.energy[b * kLanes + lane];
-      Mat3& R = response.rotations[batches_.element_of_lane[batch.first + lane]];
+      Mat3& R = response.rotations[tiles_.element_of_lane[batch.first + lane]];
       for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = lanes.rotations[(b * 9 + i) * kLanes + lane];
     }
   }
   return response;
 }
 
-void Corotation::respond_batch(int b, const NodeField& x, Lanes& lanes) const {
-  const ElementBatches::Batch& batch = batches_.batches[b];
+void Corotation::respond_batch(int b, const NodeField& x, double* forces, Lanes& lanes) const {
+  const ElementTiles::Batch& batch = tiles_.batches[b];
   const auto at = static_cast<std::size_t>(b);
-  double* forces = lanes.forces.data() + at * ElementBatches::kEntries;
   double* rotations = lanes.rotations.data() + at * 9 * kLanes;
   double* energy = lanes.energy.data() + at * kLanes;
   bool regular[kLanes] = {};
   if (kinematics_ == Kinematics::kCorotational)
-    cfem_cutting::respond({x.data(), batches_.nodes_of(b),
-                           packed_gradient_.data() + at * ElementBatches::kEntries, block_size_.data(),
+    cfem_cutting::respond({x.data(), tiles_.nodes_of(b),
+                           packed_gradient_.data() + at * 24 * kLanes, block_size_.data(),
                            packed_stiffness_.data() + at * kLanes, batch.shared, forces, rotations, energy,
                            regular});
   for (int lane = 0; lane < batch.count; ++lane)
     if (!regular[lane])
-      lanes.inverted[b] += respond_singly(batches_.element_of_lane[batch.first + lane], x, forces + lane,
+      lanes.inverted[b] += respond_singly(tiles_.element_of_lane[batch.first + lane], x, forces + 4 * place_of_lane(lane),
                                           rotations + lane, energy[lane]);
 }
 
@@ -106,7 +106,7 @@ void Corotation::respond_batch(int b, const NodeField& x, Lanes& lanes) const {
 /// The skew part of RᵀdF = d(RᵀF) + [ω]×S gives (tr(S) I − S) ω = Σ gₙ × Rᵀdxₙ for S = RᵀF, F = Σ xₙ gₙᵀ.
 /// So ∂E/∂xₙ = R (fₙ − q × gₙ) with (tr(S) I − S) q = t.
 /// @return whether the element is flat or inverted
-bool Corotation::respond_singly(int element, const NodeField& x, double* entries, double* rotation,
+bool Corotation::respond_singly(int element, const NodeField& x, double* force, double* rotation,
                                 double& energy) const {
   const Positions local = local_positions(elements_.nodes[element], x);
   const MeanGradient& g = *gradient_[element];
@@ -125,7 +125,8 @@ bool Corotation::respond_singly(int element, const NodeField& x, double* entries
     for (int n = 0; n < 8; ++n) f.col(n) -= q.cross(Vec3(g.col(n)));
   }
   const Positions forces = -R * f;
-  for (int i = 0; i < 24; ++i) entries[i * kLanes] = forces.data()[i];
+  for (int n = 0; n < 8; ++n)
+    for (int i = 0; i < 3; ++i) force[4 * kLanes * n + i] = forces(i, n);
   for (int i = 0; i < 9; ++i) rotation[i * kLanes] = R(i / 3, i % 3);
   return polar.inverted;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "element_batches.h"
+#include "element_tiles.h"
 #include "element_matrix.h"
 
 namespace cfem_cutting {
@@ -20,15 +20,14 @@ class Corotation {
 
  private:
   struct Lanes;
-  void respond_batch(int batch, const NodeField& x, Lanes& lanes) const;
-  bool respond_singly(int element, const NodeField& x, double* entries, double* rotation,
-                      double& energy) const;
+  void respond_batch(int batch, const NodeField& x, double* forces, Lanes& lanes) const;
+  bool respond_singly(int element, const NodeField& x, double* force, double* rotation, double& energy) const;
 
   ElementSet elements_;
   std::vector<const MeanGradient*> gradient_;
   Vec3 block_size_ = Vec3::Zero();
   Kinematics kinematics_ = Kinematics::kCorotational;
-  ElementBatches batches_;
+  ElementTiles tiles_;
   std::vector<double> packed_gradient_;          // (|batches| × 24 × lanes)
   std::vector<const double*> packed_stiffness_;  // (|batches| × lanes)
 };

@@ -14,7 +14,7 @@ struct CorotationBatch {
   const double* block_size;        ///< (3), m
   const double* const* stiffness;  ///< (16): each (24 × 24), N/m, column by column
   bool shared;                     ///< all lanes have the first one
-  double* forces;                  ///< (24 × 16), N: −∂energy/∂x
+  double* forces;                  ///< (8 × 16 × 4), N: −∂energy/∂x, quads as in ElementBatch::y
   double* rotations;               ///< (9 × 16), R row by row
   double* energy;                  ///< (16), J: ½ uᵀ K u
   bool* regular;  ///< (16): false where the element is flat, inverted or nearly so: no answer

@@ -118,8 +118,11 @@ static void respond_lanes(const CorotationBatch& batch, int lane) {
   const Vector spin_determinant = add_spin(y, g, f);
   for (int n = 0; n < 8; ++n)
     for (int i = 0; i < 3; ++i)
-      store(batch.forces + kLanes * (3 * n + i) + lane,
-            -(R[3 * i] * f[3 * n] + R[3 * i + 1] * f[3 * n + 1] + R[3 * i + 2] * f[3 * n + 2]));
+      u[3 * n + i] = -(R[3 * i] * f[3 * n] + R[3 * i + 1] * f[3 * n + 1] + R[3 * i + 2] * f[3 * n + 2]);
+  for (int n = 0; n < 8; ++n)
+    for (int l = 0; l < kWidth; ++l)
+      for (int i = 0; i < 3; ++i)
+        batch.forces[4 * (kLanes * n + place_of_lane(lane + l)) + i] = u[3 * n + i][l];
   for (int i = 0; i < 9; ++i) store(batch.rotations + kLanes * i + lane, R[i]);
   for (int l = 0; l < kWidth; ++l)
     batch.regular[lane + l] = volume_ratio[l] > 0.01 && change[l] < 1e-18 && spin_determinant[l] > 1e-2;

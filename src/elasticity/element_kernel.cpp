@@ -3,17 +3,23 @@
 namespace cfem_cutting {
 namespace {
 
+#define KERNEL_BYTES 16
 #define KERNEL_NAMESPACE baseline_float
 #define KERNEL_SCALAR float
-#define KERNEL_BYTES 16
+#define KERNEL_WIDTH 4
+#define KERNEL_QUADS(a, b, c, d) a, b, c, d
 #include "element_kernel_body.h"
 #undef KERNEL_NAMESPACE
 #undef KERNEL_SCALAR
+#undef KERNEL_WIDTH
+#undef KERNEL_QUADS
 #define KERNEL_NAMESPACE baseline_double
 #define KERNEL_SCALAR double
+#define KERNEL_WIDTH 2
 #include "element_kernel_body.h"
 #undef KERNEL_NAMESPACE
 #undef KERNEL_SCALAR
+#undef KERNEL_WIDTH
 #undef KERNEL_BYTES
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -22,14 +28,20 @@ namespace {
 #pragma GCC target("avx2,fma")
 #define KERNEL_NAMESPACE avx2_float
 #define KERNEL_SCALAR float
+#define KERNEL_WIDTH 8
+#define KERNEL_QUADS(a, b, c, d) a, b, c, d, a + 4, b + 4, c + 4, d + 4
 #include "element_kernel_body.h"
 #undef KERNEL_NAMESPACE
 #undef KERNEL_SCALAR
+#undef KERNEL_WIDTH
+#undef KERNEL_QUADS
 #define KERNEL_NAMESPACE avx2_double
 #define KERNEL_SCALAR double
+#define KERNEL_WIDTH 4
 #include "element_kernel_body.h"
 #undef KERNEL_NAMESPACE
 #undef KERNEL_SCALAR
+#undef KERNEL_WIDTH
 #pragma GCC pop_options
 #undef KERNEL_BYTES
 
@@ -38,14 +50,21 @@ namespace {
 #pragma GCC target("avx512f,avx2,fma")
 #define KERNEL_NAMESPACE avx512_float
 #define KERNEL_SCALAR float
+#define KERNEL_WIDTH 16
+#define KERNEL_QUADS(a, b, c, d) \
+  a, b, c, d, a + 4, b + 4, c + 4, d + 4, a + 8, b + 8, c + 8, d + 8, a + 12, b + 12, c + 12, d + 12
 #include "element_kernel_body.h"
 #undef KERNEL_NAMESPACE
 #undef KERNEL_SCALAR
+#undef KERNEL_WIDTH
+#undef KERNEL_QUADS
 #define KERNEL_NAMESPACE avx512_double
 #define KERNEL_SCALAR double
+#define KERNEL_WIDTH 8
 #include "element_kernel_body.h"
 #undef KERNEL_NAMESPACE
 #undef KERNEL_SCALAR
+#undef KERNEL_WIDTH
 #pragma GCC pop_options
 #undef KERNEL_BYTES
 #endif

@@ -5,18 +5,28 @@ namespace cfem_cutting {
 /// Elements in one batch, one a SIMD lane.
 constexpr int kLanes = 16;
 
-constexpr int kWholeMatrix = 24 * 24;   ///< entries of a shared matrix, column by column
-constexpr int kTriangle = 24 * 25 / 2;  ///< of the lower triangle of an own one, column by column
+/// How a batch has its matrices.
+enum class MatrixForm {
+  kMirrored,  ///< one, symmetric under reflections of the block: see MirroredMatrix, kMirroredMatrix entries
+  kWhole,     ///< one, column by column: kWholeMatrix entries
+  kTriangles  ///< one a lane, its lower triangle column by column: (kTriangle × 16) entries
+};
+constexpr int kMirroredMatrix = 8 * 9;
+constexpr int kWholeMatrix = 24 * 24;
+constexpr int kTriangle = 24 * 25 / 2;
 
-/// One batch of element products y = R K Rᵀ x. Arrays are lane-major: entry i of lane l at [16 i + l].
+/// Where lane l stands among the quads of a node in ElementBatch::y.
+constexpr int place_of_lane(int l) { return 4 * (l % 4) + l / 4; }
+
+/// One batch of element products y = R K Rᵀ x. Node values are quads: three coordinates and a zero.
 template <typename Scalar>
 struct ElementBatch {
-  const Scalar* stiffness;  ///< shared: kWholeMatrix; else (kTriangle × 16)
-  bool shared;              ///< all lanes have one matrix
-  const Scalar* rotation;   ///< (9 × 16), R row by row
-  const int* nodes;         ///< (8 × 16)
-  const Scalar* x;          ///< (3 × |nodes|), node by node
-  Scalar* y;                ///< (24 × 16)
+  MatrixForm form;
+  const Scalar* stiffness;
+  const Scalar* rotation;  ///< (9 × 16), R row by row, lane-major: entry i of lane l at [16 i + l]
+  const int* nodes;        ///< (8 × 16), lane-major
+  const Scalar* x;         ///< (4 × |nodes|), node by node
+  Scalar* y;               ///< (8 × 16 × 4): node n of lane l at [4 (16 n + place_of_lane(l))]
 };
 
 /// Multiplies a batch with the widest instructions that this processor has.

@@ -1,27 +1,121 @@
 // No include guard: element_kernel.cpp includes this once per instruction set and type, with
-// KERNEL_NAMESPACE, KERNEL_SCALAR and KERNEL_BYTES (of a register) defined. Plain arrays and no templates
-// inside, so that no code for one instruction set can be merged with code for another.
+// KERNEL_NAMESPACE, KERNEL_SCALAR, KERNEL_BYTES (of a register) and KERNEL_WIDTH (its lanes) defined. Plain
+// arrays and no templates inside, so that no code for one instruction set can be merged with code for another.
 
 namespace KERNEL_NAMESPACE {
 
 typedef KERNEL_SCALAR Vector __attribute__((vector_size(KERNEL_BYTES)));
 typedef KERNEL_SCALAR Loose __attribute__((vector_size(KERNEL_BYTES), aligned(4), may_alias));
 
-constexpr int kWidth = KERNEL_BYTES / static_cast<int>(sizeof(KERNEL_SCALAR));
+constexpr int kWidth = KERNEL_WIDTH;
 constexpr int kRows = 12;
 
 static inline Vector load(const KERNEL_SCALAR* p) { return *reinterpret_cast<const Loose*>(p); }
 static inline void store(KERNEL_SCALAR* p, Vector v) { *reinterpret_cast<Loose*>(p) = v; }
 
-/// u = Rᵀ x (transposed) or R x for each node.
-static inline void rotate(const Vector* R, bool transposed, const Vector* x, Vector* u) {
-  for (int n = 0; n < 8; ++n) {
+#ifdef KERNEL_QUADS
+
+typedef float Quad __attribute__((vector_size(16), aligned(4), may_alias));
+typedef float Tight __attribute__((vector_size(16)));
+
+#define QUAD(l) static_cast<Tight>(*reinterpret_cast<const Quad*>(x + 4 * static_cast<long>(nodes[l])))
+#define EIGHT(a, b) __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7)
+#define SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, KERNEL_QUADS(i, j, k, l))
+
+/// The quads of nodes 0, 4, 8, ... as one register.
+static inline Vector every_fourth(const KERNEL_SCALAR* x, const int* nodes) {
+#if KERNEL_WIDTH == 4
+  return QUAD(0);
+#elif KERNEL_WIDTH == 8
+  return EIGHT(QUAD(0), QUAD(4));
+#else
+  return __builtin_shufflevector(EIGHT(QUAD(0), QUAD(4)), EIGHT(QUAD(8), QUAD(12)), 0, 1, 2, 3, 4, 5, 6, 7, 8,
+                                 9, 10, 11, 12, 13, 14, 15);
+#endif
+}
+
+/// Values of one node of each lane's element, by coordinate.
+static inline void gather(const KERNEL_SCALAR* x, const int* nodes, Vector* values) {
+  const Vector a = every_fourth(x, nodes), b = every_fourth(x, nodes + 1);
+  const Vector c = every_fourth(x, nodes + 2), d = every_fourth(x, nodes + 3);
+  const Vector ab = SHUFFLE(a, b, 0, kWidth, 1, kWidth + 1), cd = SHUFFLE(c, d, 0, kWidth, 1, kWidth + 1);
+  values[0] = SHUFFLE(ab, cd, 0, 1, kWidth, kWidth + 1);
+  values[1] = SHUFFLE(ab, cd, 2, 3, kWidth + 2, kWidth + 3);
+  values[2] = SHUFFLE(SHUFFLE(a, b, 2, kWidth + 2, 2, kWidth + 2), SHUFFLE(c, d, 2, kWidth + 2, 2, kWidth + 2),
+                      0, 1, kWidth, kWidth + 1);
+}
+
+/// The inverse of gather, into places.
+static inline void scatter(const Vector* values, int lane, KERNEL_SCALAR* y) {
+  const Vector x0 = SHUFFLE(values[0], values[1], 0, kWidth, 1, kWidth + 1);
+  const Vector x2 = SHUFFLE(values[0], values[1], 2, kWidth + 2, 3, kWidth + 3);
+  const Vector zero = {};
+  const Vector z0 = SHUFFLE(values[2], zero, 0, kWidth, 1, kWidth);
+  const Vector z2 = SHUFFLE(values[2], zero, 2, kWidth, 3, kWidth);
+  store(y + lane, SHUFFLE(x0, z0, 0, 1, kWidth, kWidth + 1));
+  store(y + 16 + lane, SHUFFLE(x0, z0, 2, 3, kWidth + 2, kWidth + 3));
+  store(y + 32 + lane, SHUFFLE(x2, z2, 0, 1, kWidth, kWidth + 1));
+  store(y + 48 + lane, SHUFFLE(x2, z2, 2, 3, kWidth + 2, kWidth + 3));
+}
+
+#undef QUAD
+#undef EIGHT
+#undef SHUFFLE
+
+#else
+
+static inline void gather(const KERNEL_SCALAR* x, const int* nodes, Vector* values) {
+  for (int l = 0; l < kWidth; ++l)
+    for (int i = 0; i < 3; ++i) values[i][l] = x[4 * static_cast<long>(nodes[l]) + i];
+}
+
+static inline void scatter(const Vector* values, int lane, KERNEL_SCALAR* y) {
+  for (int l = 0; l < kWidth; ++l)
+    for (int i = 0; i < 4; ++i) y[4 * place_of_lane(lane + l) + i] = i < 3 ? values[i][l] : 0;
+}
+
+#endif
+
+/// u = Rᵀ x (transposed) or R x for nodes from the first on.
+static inline void rotate(const Vector* R, bool transposed, int first, const Vector* x, Vector* u) {
+  for (int n = first; n < 8; ++n) {
     for (int i = 0; i < 3; ++i) {
       const Vector a = R[transposed ? i : 3 * i], b = R[transposed ? 3 + i : 3 * i + 1];
       const Vector c = R[transposed ? 6 + i : 3 * i + 2];
       u[3 * n + i] = a * x[3 * n] + b * x[3 * n + 1] + c * x[3 * n + 2];
     }
   }
+}
+
+/// Σ (−1)^|s & n| v_n for each s: Walsh's transform over the nodes.
+static inline void transform(Vector* v) {
+  for (int bit = 1; bit < 8; bit *= 2) {
+    for (int n = 0; n < 8; ++n) {
+      if (n & bit) continue;
+      for (int i = 0; i < 3; ++i) {
+        const Vector a = v[3 * n + i], b = v[3 * (n | bit) + i];
+        v[3 * n + i] = a + b;
+        v[3 * (n | bit) + i] = a - b;
+      }
+    }
+  }
+}
+
+/// y = R K Rᵀ x by MirroredMatrix: what is left of K are eight blocks. x is used up.
+static inline void multiply_mirrored(const KERNEL_SCALAR* K, const Vector* R, Vector* x, Vector* y) {
+  Vector u[24] = {};  // a translation, which comes first, has no forces
+  transform(x);
+  rotate(R, true, 1, x, u);
+#pragma GCC unroll 8
+  for (int p = 0; p < 8; ++p) {
+    for (int i = 0; i < 3; ++i) {
+      const KERNEL_SCALAR* k = K + 9 * p + 3 * i;
+      x[3 * (p ^ 1 << i) + i] = k[0] * u[3 * (p ^ 1)] + k[1] * u[3 * (p ^ 2) + 1] + k[2] * u[3 * (p ^ 4) + 2];
+    }
+  }
+  rotate(R, false, 1, x, y);
+  for (int i = 0; i < 3; ++i) y[i] = u[i];
+  transform(y);
 }
 
 static inline void multiply_shared(const KERNEL_SCALAR* K, const Vector* u, Vector* f) {
@@ -58,18 +152,20 @@ static inline void multiply_own(const KERNEL_SCALAR* K, const Vector* u, Vector*
 static void multiply(const ElementBatch<KERNEL_SCALAR>& batch) {
   for (int lane = 0; lane < kLanes; lane += kWidth) {
     Vector x[24], u[24], R[9];
-    for (int n = 0; n < 8; ++n)
-      for (int l = 0; l < kWidth; ++l)
-        for (int i = 0; i < 3; ++i) x[3 * n + i][l] = batch.x[3 * batch.nodes[kLanes * n + lane + l] + i];
+    for (int n = 0; n < 8; ++n) gather(batch.x, batch.nodes + kLanes * n + lane, x + 3 * n);
     for (int i = 0; i < 9; ++i) R[i] = load(batch.rotation + kLanes * i + lane);
-    rotate(R, true, x, u);
-    if (batch.shared) {
-      multiply_shared(batch.stiffness, u, x);
+    if (batch.form == MatrixForm::kMirrored) {
+      multiply_mirrored(batch.stiffness, R, x, u);
     } else {
-      multiply_own(batch.stiffness + lane, u, x);
+      rotate(R, true, 0, x, u);
+      if (batch.form == MatrixForm::kWhole) {
+        multiply_shared(batch.stiffness, u, x);
+      } else {
+        multiply_own(batch.stiffness + lane, u, x);
+      }
+      rotate(R, false, 0, x, u);
     }
-    rotate(R, false, x, u);
-    for (int i = 0; i < 24; ++i) store(batch.y + kLanes * i + lane, u[i]);
+    for (int n = 0; n < 8; ++n) scatter(u + 3 * n, lane, batch.y + 4 * kLanes * n);
   }
 }
 

@@ -2,14 +2,18 @@
 
 #include <vector>
 
-#include "element_batches.h"
+#include "element_tiles.h"
 
 namespace cfem_cutting {
 
-using SingleField = Eigen::Matrix3Xf;  ///< a node field in single precision
+/// A node field in single precision, of quads: three coordinates and a zero.
+using Quad = Eigen::Vector4f;
+using SingleField = Eigen::Matrix<float, 4, Eigen::Dynamic>;
+SingleField to_quads(const NodeField& field);
+NodeField from_quads(const SingleField& field);
 
-/// The product Σ R K Rᵀ p over the elements of a level, matrix-free: elements go through the kernel in
-/// batches of SIMD lanes, and each node then adds up the entries of its elements in a fixed order.
+/// The product Σ R K Rᵀ p over the elements of a level, matrix-free: tile by tile elements go through the
+/// kernel in batches of SIMD lanes, and each node adds up what its elements give it in a fixed order.
 class ElementProduct {
  public:
   explicit ElementProduct(ThreadPool& pool) : pool_(&pool) {}
@@ -24,6 +28,14 @@ class ElementProduct {
   const std::vector<Mat3>& rotations() const { return rotations_; }
   ThreadPool& pool() const { return *pool_; }
 
+  /// Calls finish(node, Σ R K Rᵀ p there) for each node, on several threads. It may change p there.
+  template <typename Finish>
+  void apply(const SingleField& p, const Finish& finish) const {
+    fit(single_);
+    tiles_.sum_up<float>(
+        *pool_, [&](int b, float* y) { multiply(batch(single_, b, p.data(), y)); }, finish);
+  }
+
   /// y = Σ R K Rᵀ p, in the precision of its arguments
   void apply(const SingleField& p, SingleField& y) const;
   void apply(const NodeField& p, NodeField& y) const;
@@ -32,7 +44,7 @@ class ElementProduct {
   std::vector<Mat3> diagonal_at_rest() const;
 
   /// The rotation of an element at each node: that of the first one there.
-  const Mat3& rotation_at(int node) const { return rotations_[batches_.first_element[node]]; }
+  const Mat3& rotation_at(int node) const { return rotations_[tiles_.first_element[node]]; }
 
  private:
   /// Arrays for the kernel in one precision.
@@ -40,22 +52,26 @@ class ElementProduct {
   struct Packed {
     std::vector<Scalar> stiffness;
     std::vector<std::size_t> stiffness_of_batch;  // offsets
-    std::vector<Scalar> rotations;                // (|batches| × 9 × lanes)
-    std::vector<Scalar> products;                 // (|batches| × 24 × lanes)
+    std::vector<MatrixForm> form_of_batch;
+    std::vector<Scalar> rotations;  // (|batches| × 9 × lanes)
     bool stiffness_fits = false, rotations_fit = false;
   };
+  template <typename Scalar>
+  void fit(Packed<Scalar>& packed) const;
   template <typename Scalar>
   void pack_stiffness(Packed<Scalar>& packed) const;
   template <typename Scalar>
   void pack_rotations(Packed<Scalar>& packed) const;
   template <typename Scalar>
-  void multiply_all(const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>& p,
-                    Eigen::Matrix<Scalar, 3, Eigen::Dynamic>& y, Packed<Scalar>& packed) const;
+  ElementBatch<Scalar> batch(const Packed<Scalar>& packed, int b, const Scalar* p, Scalar* y) const {
+    return {packed.form_of_batch[b], packed.stiffness.data() + packed.stiffness_of_batch[b],
+            packed.rotations.data() + static_cast<std::size_t>(b) * 9 * kLanes, tiles_.nodes_of(b), p, y};
+  }
 
   ThreadPool* pool_;
   ElementSet elements_;
   std::vector<Mat3> rotations_;
-  ElementBatches batches_;
+  ElementTiles tiles_;
   mutable Packed<float> single_;
   mutable Packed<double> double_;
 };

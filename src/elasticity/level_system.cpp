@@ -16,11 +16,13 @@ constexpr int kPowerIterations = 10;
 
 /// Values without pattern, the same every time.
 SingleField noise(int columns) {
-  SingleField field(3, columns);
+  SingleField field = SingleField::Zero(4, columns);
   std::uint32_t state = 1;
-  for (Eigen::Index i = 0; i < field.size(); ++i) {
-    state = state * 1664525u + 1013904223u;
-    field.data()[i] = static_cast<float>(state >> 8) / (1 << 23) - 1.0f;
+  for (int n = 0; n < columns; ++n) {
+    for (int i = 0; i < 3; ++i) {
+      state = state * 1664525u + 1013904223u;
+      field(i, n) = static_cast<float>(state >> 8) / (1 << 23) - 1.0f;
+    }
   }
   return field;
 }
@@ -31,10 +33,10 @@ Mat3 inverse_or_zero(const Mat3& block) {
   return block.inverse();
 }
 
-/// A 3 × 3 block times a vector.
-template <typename Block>
-Eigen::Vector3f times(const Block& block, const float* v) {
-  return (v[0] * block.col(0) + v[1] * block.col(1) + v[2] * block.col(2)).template head<3>();
+/// A node's block times a quad.
+template <typename Block, typename Vector>
+Quad times(const Block& block, const Vector& v) {
+  return v[0] * block.col(0) + v[1] * block.col(1) + v[2] * block.col(2);
 }
 
 }  // namespace
@@ -87,14 +89,13 @@ float LevelSystem::mean_stiffness() const {
 template <typename Work>
 void LevelSystem::for_nodes(const Work& work) const {
   constexpr int kPart = 256;  // stays in the cache
-  product_.pool().for_range(static_cast<int>(held_.size()), ElementBatches::kFewest, [&](int begin, int end) {
+  product_.pool().for_range(static_cast<int>(held_.size()), ElementTiles::kFewest, [&](int begin, int end) {
     for (int n = begin; n < end; n += kPart) work(n, std::min(n + kPart, end));
   });
 }
 
 void LevelSystem::invert_at_rest() {
   inverse_at_rest_.assign(held_.size(), Eigen::Matrix3f::Zero());
-  added_ = node_diagonal_.transpose().replicate<3, 1>();
   for_nodes([&](int begin, int end) {
     for (int n = begin; n < end; ++n) {
       const Mat3 block = stiffness_factor_ * diagonal_at_rest_[n] + node_diagonal_[n] * Mat3::Identity();
@@ -119,19 +120,19 @@ void LevelSystem::prepare_constraints() {
   const int count = static_cast<int>(constraints_.size());
   if (count == 0) return;
   Eigen::MatrixXf compliance(count, count);
-  SingleField moved = SingleField::Zero(3, static_cast<Eigen::Index>(held_.size()));
+  SingleField moved = SingleField::Zero(4, static_cast<Eigen::Index>(held_.size()));
   const auto& nodes = product_.elements().nodes;
   for (int i = 0; i < count; ++i) {
     const ConstraintRow& row = constraints_[i];
     for (int n = 0; n < 8; ++n) {
       const int node = nodes[row.element][n];
-      moved.col(node) += row.weights[n] * times(inverse_[node], row.direction.data());
+      moved.col(node) += row.weights[n] * times(inverse_[node], row.direction);
     }
     for (int j = 0; j < count; ++j) {
       const ConstraintRow& other = constraints_[j];
-      Eigen::Vector3f at = Eigen::Vector3f::Zero();
+      Quad at = Quad::Zero();
       for (int n = 0; n < 8; ++n) at += other.weights[n] * moved.col(nodes[other.element][n]);
-      compliance(j, i) = other.direction.dot(at);
+      compliance(j, i) = other.direction.dot(at.head<3>());
     }
     compliance(i, i) += 1.0f / row.stiffness;
     for (int node : nodes[row.element]) moved.col(node).setZero();
@@ -140,30 +141,39 @@ void LevelSystem::prepare_constraints() {
 }
 
 void LevelSystem::apply(const SingleField& p, SingleField& y) const {
-  product_.apply(p, y);
-  const float s = stiffness_factor_;
-  for_nodes([=, in = p.data(), d = added_.data(), out = y.data()](int begin, int end) {
-#pragma GCC ivdep
-    for (int i = 3 * begin; i < 3 * end; ++i) out[i] = s * out[i] + d[i] * in[i];
+  y.resize(4, p.cols());
+  product_.apply(p, [&, s = stiffness_factor_](int n, const Quad& sum) {
+    y.col(n) = s * sum + node_diagonal_[n] * p.col(n);
   });
-  add_constraints(p, 1.0f, y);
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    add_to_nodes(constraints_[i], constraints_[i].stiffness * displacement(constraints_[i], p), y);
 }
 
-void LevelSystem::add_constraints(const SingleField& p, float factor, SingleField& y) const {
-  for (const ConstraintRow& row : constraints_) {
-    const ElementNodes& nodes = product_.elements().nodes[row.element];
-    Eigen::Vector3f at = Eigen::Vector3f::Zero();
-    for (int n = 0; n < 8; ++n) at += row.weights[n] * p.col(nodes[n]);
-    const Eigen::Vector3f force = factor * row.stiffness * row.direction.dot(at) * row.direction;
-    for (int n = 0; n < 8; ++n) y.col(nodes[n]) += row.weights[n] * force;
-  }
+/// dᵀ (w · p)
+float LevelSystem::displacement(const ConstraintRow& row, const SingleField& p) const {
+  const ElementNodes& nodes = product_.elements().nodes[row.element];
+  Quad at = Quad::Zero();
+  for (int n = 0; n < 8; ++n) at += row.weights[n] * p.col(nodes[n]);
+  return row.direction.dot(at.head<3>());
+}
+
+/// y += force (w ⊗ d)
+void LevelSystem::add_to_nodes(const ConstraintRow& row, float force, SingleField& y) const {
+  const ElementNodes& nodes = product_.elements().nodes[row.element];
+  for (int n = 0; n < 8; ++n) y.col(nodes[n]).head<3>() += row.weights[n] * force * row.direction;
+}
+
+/// y += force M⁻¹ (w ⊗ d)
+void LevelSystem::add_scaled_to_nodes(const ConstraintRow& row, float force, SingleField& y) const {
+  const ElementNodes& nodes = product_.elements().nodes[row.element];
+  for (int n = 0; n < 8; ++n) y.col(nodes[n]) += row.weights[n] * force * times(inverse_[nodes[n]], row.direction);
 }
 
 /// z = factor M⁻¹ r with M the nodes' blocks and the constraints.
 void LevelSystem::scale(const SingleField& r, float factor, SingleField& z) const {
-  z.resize(3, r.cols());
+  z.resize(4, r.cols());
   for_nodes([&](int begin, int end) {
-    for (int n = begin; n < end; ++n) z.col(n) = factor * times(inverse_[n], r.col(n).data());
+    for (int n = begin; n < end; ++n) z.col(n) = factor * times(inverse_[n], r.col(n));
   });
   correct_for_constraints(r, factor, z);
 }
@@ -171,40 +181,37 @@ void LevelSystem::scale(const SingleField& r, float factor, SingleField& z) cons
 /// What constraints, which are stiff and few, change in factor M⁻¹ r (Woodbury's formula).
 void LevelSystem::correct_for_constraints(const SingleField& r, float factor, SingleField& z) const {
   if (constraints_.empty()) return;
-  const auto& nodes = product_.elements().nodes;
   Eigen::VectorXf along(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const ConstraintRow& row = constraints_[i];
-    Eigen::Vector3f at = Eigen::Vector3f::Zero();
+    Quad at = Quad::Zero();
     for (int n = 0; n < 8; ++n) {
-      const int node = nodes[row.element][n];
-      at += row.weights[n] * times(inverse_[node], r.col(node).data());
+      const int node = product_.elements().nodes[row.element][n];
+      at += row.weights[n] * times(inverse_[node], r.col(node));
     }
-    along[i] = factor * row.direction.dot(at);
+    along[i] = factor * row.direction.dot(at.head<3>());
   }
   along = compliance_.solve(along).eval();
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const ConstraintRow& row = constraints_[i];
-    for (int n = 0; n < 8; ++n) {
-      const int node = nodes[row.element][n];
-      z.col(node) -= row.weights[n] * along[i] * times(inverse_[node], row.direction.data());
-    }
-  }
+  for (std::size_t i = 0; i < constraints_.size(); ++i) add_scaled_to_nodes(constraints_[i], -along[i], z);
 }
 
-/// x += step, r −= A step (of which the elements' part is in change_), step = keep step + add M⁻¹ r
+/// One sweep of Chebyshev's iteration: x += step, r −= A step, step = keep step + add M⁻¹ r.
 void LevelSystem::advance(float keep, float add, SingleField& x, SingleField& r) const {
-  const float s = stiffness_factor_;
-  for_nodes([&, x = x.data(), r = r.data(), step = step_.data(), change = change_.data(), d = added_.data()](
-                int begin, int end) {
-#pragma GCC ivdep
-    for (int i = 3 * begin; i < 3 * end; ++i) {
-      x[i] += step[i];
-      r[i] -= s * change[i] + d[i] * step[i];
-    }
-    for (int n = begin; n < end; ++n)
-      step_.col(n) = keep * step_.col(n) + add * times(inverse_[n], r + 3 * n);
+  Eigen::VectorXf forces(constraints_.size());
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    forces[i] = constraints_[i].stiffness * displacement(constraints_[i], step_);
+  product_.apply(step_, [&, s = stiffness_factor_](int n, const Quad& sum) {
+    const Quad step = step_.col(n);
+    const Quad left = r.col(n) - (s * sum + node_diagonal_[n] * step);
+    x.col(n) += step;
+    r.col(n) = left;
+    step_.col(n) = keep * step + add * times(inverse_[n], left);
   });
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    add_to_nodes(constraints_[i], -forces[i], r);
+    add_scaled_to_nodes(constraints_[i], -add * forces[i], step_);
+  }
+  if (add != 0.0f) correct_for_constraints(r, add, step_);
 }
 
 /// Chebyshev's iteration (Saad 2003, algorithm 12.1) from x with residual r; r goes along to the end if
@@ -215,21 +222,20 @@ void LevelSystem::polish(SingleField& x, SingleField& r, bool residual_wanted) c
   const float sigma = centre / half_width;
   float rho = 1.0f / sigma;
   scale(r, 1.0f / centre, step_);
-  for (int k = 1; k < kDegree || residual_wanted; ++k) {
+  for (int k = 1; k < kDegree; ++k) {
     const float next = 1.0f / (2.0f * sigma - rho);
-    const float keep = k < kDegree ? next * rho : 0.0f, add = k < kDegree ? 2.0f * next / half_width : 0.0f;
-    product_.apply(step_, change_);
-    add_constraints(step_, 1.0f / stiffness_factor_, change_);
-    advance(keep, add, x, r);
-    if (k == kDegree) return;
-    correct_for_constraints(r, add, step_);
+    advance(next * rho, 2.0f * next / half_width, x, r);
     rho = next;
   }
-  x += step_;
+  if (residual_wanted) {
+    advance(0.0f, 0.0f, x, r);
+  } else {
+    x += step_;
+  }
 }
 
 void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const {
-  x = SingleField::Zero(3, b.cols());
+  x = SingleField::Zero(4, b.cols());
   r = b;
   polish(x, r, true);
 }
@@ -274,11 +280,13 @@ void LevelSystem::factorise() {
 }
 
 void LevelSystem::solve(const SingleField& b, SingleField& x) const {
-  Eigen::VectorXd flat = Eigen::Map<const Eigen::VectorXf>(b.data(), b.size()).cast<double>();
+  NodeField load = from_quads(b);
   for (std::size_t n = 0; n < held_.size(); ++n)
-    if (held_[n]) flat.segment<3>(3 * static_cast<Eigen::Index>(n)).setZero();
-  if (factors_.info() == Eigen::Success) flat = factors_.solve(flat).eval();
-  x = Eigen::Map<const NodeField>(flat.data(), 3, b.cols()).cast<float>();
+    if (held_[n]) load.col(static_cast<Eigen::Index>(n)).setZero();
+  const Eigen::Map<Eigen::VectorXd> flat(load.data(), load.size());
+  if (factors_.info() != Eigen::Success) return void(x = to_quads(load));
+  const Eigen::VectorXd solution = factors_.solve(flat);
+  x = to_quads(Eigen::Map<const NodeField>(solution.data(), 3, b.cols()));
 }
 
 }  // namespace cfem_cutting

@@ -59,7 +59,9 @@ class LevelSystem {
   void advance(float keep, float add, SingleField& x, SingleField& r) const;
   void scale(const SingleField& r, float factor, SingleField& z) const;
   void correct_for_constraints(const SingleField& r, float factor, SingleField& z) const;
-  void add_constraints(const SingleField& p, float factor, SingleField& y) const;
+  float displacement(const ConstraintRow& row, const SingleField& p) const;
+  void add_to_nodes(const ConstraintRow& row, float force, SingleField& y) const;
+  void add_scaled_to_nodes(const ConstraintRow& row, float force, SingleField& y) const;
   void prepare_constraints();
   void invert_at_rest();
   void turn_inverses();
@@ -73,12 +75,11 @@ class LevelSystem {
   Eigen::VectorXf node_diagonal_;
   float stiffness_factor_ = 1.0f;
   std::vector<ConstraintRow> constraints_;
-  SingleField added_;                             // N/m, the node diagonal per entry
   std::vector<Eigen::Matrix3f> inverse_at_rest_;  // m/N, of the nodes' blocks; zero for held nodes
   std::vector<NodeBlock> inverse_;                // m/N, turned
   Eigen::LDLT<Eigen::MatrixXf> compliance_;       // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
-  mutable SingleField step_, change_, residual_;  // scratch
+  mutable SingleField step_, residual_;  // scratch
 };
 
 }  // namespace cfem_cutting

@@ -53,8 +53,8 @@ int conjugate_gradients(const LinearSystem& system, SingleField& r, SingleField&
   const Multigrid& multigrid = system.multigrid();
   const int count = static_cast<int>(r.cols());
   const auto sum = [&](const auto& term) { return sum_over_nodes(multigrid.pool(), count, term); };
-  SingleField z, p = SingleField::Zero(3, count), Ap;
-  x = SingleField::Zero(3, count);
+  SingleField z, p = SingleField::Zero(4, count), Ap;
+  x = SingleField::Zero(4, count);
   double rz = 1.0;
   double size = std::sqrt(sum([&](int n) { return r.col(n).squaredNorm(); }));
   int iteration = 0;
@@ -94,8 +94,8 @@ void LinearSystem::apply(const NodeField& p, NodeField& y) const {
     product.apply(p, y);
   } else {
     SingleField sum;
-    product.apply(p.cast<float>(), sum);
-    y = sum.cast<double>();
+    product.apply(to_quads(p), sum);
+    y = from_quads(sum);
   }
   for (Eigen::Index n = 0; n < p.cols(); ++n)
     y.col(n) = values_.stiffness_factor * y.col(n) + values_.node_diagonal[n] * p.col(n);
@@ -142,11 +142,11 @@ SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx,
     if (report.converged || report.iterations >= max_iterations || stagnates) return report;
     before = size;
     last = dx;
-    SingleField scaled = (r / size).cast<float>(), change;
+    SingleField scaled = to_quads(r / size), change;
     report.iterations +=
         conjugate_gradients(system, scaled, change, std::max(0.8 * goal / size, kMostReduction),
                             max_iterations - report.iterations);
-    dx += size * change.cast<double>();
+    dx += size * from_quads(change);
   }
 }
 

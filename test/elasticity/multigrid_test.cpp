@@ -56,7 +56,7 @@ struct Cycle : testing::Test {
 
   SingleField random(unsigned seed) const {
     std::srand(seed);
-    SingleField field = SingleField::Random(3, count);
+    SingleField field = to_quads(NodeField::Random(3, count));
     for (int node : held) field.col(node).setZero();
     return field;
   }
@@ -95,7 +95,7 @@ TEST_F(Cycle, TakesMostOfAnyErrorAway) {
 TEST_F(Cycle, InterpolationKeepsRigidTranslations) {
   const Coarsening coarsening(model.element_set());
   EXPECT_LT(coarsening.coarse.size(), model.element_set().size() / 3);
-  const SingleField ones = SingleField::Ones(3, coarsening.coarse.node_count);
+  const SingleField ones = SingleField::Ones(4, coarsening.coarse.node_count);
   SingleField fine;
   coarsening.interpolation.apply(pool, ones, fine);
   EXPECT_LT((fine.array() - 1.0f).abs().maxCoeff(), 1e-6f);
