@@ -4,6 +4,7 @@
 #include <cassert>
 #include <tuple>
 
+#include "morton.h"
 #include "union_find.h"
 #include "voxel_joints.h"
 
@@ -65,14 +66,15 @@ std::vector<Vec3i> assign_blocks(const VoxelVolume& volume, const CompositeMesh&
   return block;
 }
 
-/// Voxels in the order of their elements: by block (z, y, x), then by the component's first voxel.
+/// Voxels in the order of their elements: by block along Morton's curve, then by the component's first voxel.
 std::vector<int> sort_by_element(const std::vector<Vec3i>& block, const std::vector<int>& root) {
-  std::vector<int> order(root.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int v) {
-    return std::make_tuple(block[v].z(), block[v].y(), block[v].x(), root[v], v);
-  };
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  std::vector<std::tuple<std::uint64_t, int, int>> keys;
+  keys.reserve(root.size());
+  for (std::size_t v = 0; v < root.size(); ++v)
+    keys.emplace_back(morton_place(block[v]), root[v], static_cast<int>(v));
+  std::sort(keys.begin(), keys.end());
+  std::vector<int> order;
+  for (const auto& key : keys) order.push_back(std::get<2>(key));
   return order;
 }
 

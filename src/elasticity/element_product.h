@@ -9,6 +9,8 @@ namespace cfem_cutting {
 /// A node field in single precision, of quads: three coordinates and a zero.
 using Quad = Eigen::Vector4f;
 using SingleField = Eigen::Matrix<float, 4, Eigen::Dynamic>;
+inline Quad* quads_of(SingleField& field) { return reinterpret_cast<Quad*>(field.data()); }
+inline const Quad* quads_of(const SingleField& field) { return reinterpret_cast<const Quad*>(field.data()); }
 SingleField to_quads(const NodeField& field);
 NodeField from_quads(const SingleField& field);
 

@@ -11,7 +11,8 @@ namespace cfem_cutting {
 using ElementNodes = std::array<int, 8>;
 using MatrixPointer = std::shared_ptr<const ElementMatrix>;
 
-/// Hexahedra on a block lattice, each with its nodes and its stiffness: a level of the multigrid hierarchy.
+/// Hexahedra on a block lattice, along Morton's curve, each with its nodes and its stiffness: a level of the
+/// multigrid hierarchy.
 struct ElementSet {
   std::vector<Vec3i> block;
   std::vector<ElementNodes> nodes;

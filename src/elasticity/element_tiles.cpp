@@ -1,7 +1,6 @@
 #include "element_tiles.h"
 
 #include <algorithm>
-#include <numeric>
 #include <unordered_map>
 
 namespace cfem_cutting {
@@ -10,10 +9,10 @@ namespace {
 constexpr int kFewestShared = kLanes / 2;  // elements that make a batch with one matrix worthwhile
 
 /// Elements by matrix, in the order of first occurrence.
-std::vector<std::vector<int>> group_by_matrix(const ElementSet& elements, const std::vector<int>& among) {
+std::vector<std::vector<int>> group_by_matrix(const ElementSet& elements, int begin, int end) {
   std::vector<std::vector<int>> groups;
   std::unordered_map<const ElementMatrix*, std::size_t> group_of_matrix;
-  for (int e : among) {
+  for (int e = begin; e < end; ++e) {
     const auto [it, added] = group_of_matrix.try_emplace(elements.stiffness[e].get(), groups.size());
     if (added) groups.emplace_back();
     groups[it->second].push_back(e);
@@ -21,41 +20,13 @@ std::vector<std::vector<int>> group_by_matrix(const ElementSet& elements, const 
   return groups;
 }
 
-/// Place on Morton's curve (Morton 1966) through blocks, which keeps neighbours together.
-std::uint64_t morton_place(const Vec3i& block) {
-  std::uint64_t place = 0;
-  for (int bit = 0; bit < 20; ++bit)
-    for (int axis = 0; axis < 3; ++axis)
-      place |= static_cast<std::uint64_t>(block[axis] >> bit & 1) << (3 * bit + axis);
-  return place;
-}
-
-std::vector<int> sort_along_curve(const ElementSet& elements) {
-  Vec3i lowest = Vec3i::Zero();
-  for (const Vec3i& block : elements.block) lowest = lowest.cwiseMin(block);
-  std::vector<std::uint64_t> place;
-  for (const Vec3i& block : elements.block) place.push_back(morton_place(block - lowest));
-  std::vector<int> order(elements.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return place[a] < place[b]; });
-  return order;
-}
-
 }  // namespace
 
 ElementTiles::ElementTiles(const ElementSet& elements) {
-  const std::vector<int> order = sort_along_curve(elements);
-  std::vector<int> tile_of_element(elements.size());
-  for (std::size_t begin = 0; begin < order.size(); begin += kTile) {
-    const std::size_t end = std::min(order.size(), begin + kTile);
-    for (std::size_t i = begin; i < end; ++i) tile_of_element[order[i]] = static_cast<int>(begin / kTile);
-    add_tile(elements, {order.begin() + begin, order.begin() + end});
-  }
-  const NodeCorners at(elements);
-  for (int node = 0; node < elements.node_count; ++node)
-    first_element.push_back(at.corners[at.first[node]] / 8);
-  add_nodes(elements, at, tile_of_element);
-  add_borders(elements.node_count);
+  for (int begin = 0; begin < elements.size(); begin += kTile)
+    add_tile(elements, begin, std::min(elements.size(), begin + kTile));
+  add_nodes(elements);
+  add_totals(elements.node_count);
 }
 
 void ElementTiles::add_batches(const std::vector<int>& elements, bool shared) {
@@ -66,10 +37,10 @@ void ElementTiles::add_batches(const std::vector<int>& elements, bool shared) {
   }
 }
 
-void ElementTiles::add_tile(const ElementSet& elements, const std::vector<int>& of_tile) {
+void ElementTiles::add_tile(const ElementSet& elements, int begin, int end) {
   const int first = size();
   std::vector<int> others;
-  for (const std::vector<int>& group : group_by_matrix(elements, of_tile)) {
+  for (const std::vector<int>& group : group_by_matrix(elements, begin, end)) {
     if (static_cast<int>(group.size()) >= kFewestShared) {
       add_batches(group, true);
     } else {
@@ -77,7 +48,7 @@ void ElementTiles::add_tile(const ElementSet& elements, const std::vector<int>& 
     }
   }
   add_batches(others, false);
-  tiles_.push_back({first, size(), 0, 0, 0});
+  tiles_.push_back({first, size()});
   nodes.resize(batches.size() * 8 * kLanes, 0);
   for (int b = first; b < size(); ++b)
     for (int lane = 0; lane < batches[b].count; ++lane)
@@ -85,56 +56,61 @@ void ElementTiles::add_tile(const ElementSet& elements, const std::vector<int>& 
         nodes[(b * 8 + n) * kLanes + lane] = elements.nodes[element_of_lane[batches[b].first + lane]][n];
 }
 
-/// Per tile its nodes, those of other tiles too last, with the quads that they add up.
-void ElementTiles::add_nodes(const ElementSet& elements, const NodeCorners& at,
-                             const std::vector<int>& tile_of_element) {
+/// Per tile its nodes with the quads that they add up.
+void ElementTiles::add_nodes(const ElementSet& elements) {
+  const NodeCorners at(elements);
   std::vector<int> slot_of_corner(8 * static_cast<std::size_t>(elements.size()));
-  std::vector<std::vector<int>> inner(tiles_.size()), shared(tiles_.size());
-  for (std::size_t t = 0; t < tiles_.size(); ++t)
-    for (int b = tiles_[t].first_batch; b < tiles_[t].end_batch; ++b)
+  for (const Tile& tile : tiles_)
+    for (int b = tile.first_batch; b < tile.end_batch; ++b)
       for (int lane = 0; lane < batches[b].count; ++lane)
         for (int n = 0; n < 8; ++n)
           slot_of_corner[8 * element_of_lane[batches[b].first + lane] + n] =
-              ((b - tiles_[t].first_batch) * 8 + n) * kLanes + place_of_lane(lane);
-  const auto tile_of = [&](int corner) { return tile_of_element[corner / 8]; };
+              ((b - tile.first_batch) * 8 + n) * kLanes + place_of_lane(lane);
+
+  // Of each tile: the corners of its elements, by node.
+  std::vector<std::vector<std::pair<int, int>>> corners(tiles_.size());
+  std::vector<char> on_border(elements.node_count, 0);
   for (int node = 0; node < elements.node_count; ++node) {
-    std::vector<int> tiles;
-    for (int i = at.first[node]; i < at.first[node + 1]; ++i) tiles.push_back(tile_of(at.corners[i]));
-    std::sort(tiles.begin(), tiles.end());
-    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
-    for (int t : tiles) (tiles.size() == 1 ? inner : shared)[t].push_back(node);
-  }
-  first_slot_.assign(1, 0);
-  for (std::size_t t = 0; t < tiles_.size(); ++t) {
-    tiles_[t].first_node = static_cast<int>(node_.size());
-    tiles_[t].first_border = tiles_[t].first_node + static_cast<int>(inner[t].size());
-    node_.insert(node_.end(), inner[t].begin(), inner[t].end());
-    node_.insert(node_.end(), shared[t].begin(), shared[t].end());
-    tiles_[t].end_node = static_cast<int>(node_.size());
-    for (int k = tiles_[t].first_node; k < tiles_[t].end_node; ++k) {
-      for (int i = at.first[node_[k]]; i < at.first[node_[k] + 1]; ++i)
-        if (tile_of(at.corners[i]) == static_cast<int>(t))
-          slots_.push_back(static_cast<std::uint16_t>(slot_of_corner[at.corners[i]]));
-      first_slot_.push_back(static_cast<int>(slots_.size()));
+    const int first = at.corners[at.first[node]];
+    first_element.push_back(first / 8);
+    for (int i = at.first[node]; i < at.first[node + 1]; ++i) {
+      const int tile = at.corners[i] / 8 / kTile;
+      corners[tile].emplace_back(node, slot_of_corner[at.corners[i]]);
+      if (tile != first / 8 / kTile) on_border[node] = 1;
     }
+  }
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    Tile& tile = tiles_[t];
+    tile.inner = static_cast<int>(inner_sums_.nodes.size());
+    tile.border = static_cast<int>(border_sums_.nodes.size());
+    for (std::size_t i = 0; i < corners[t].size(); ++i) {
+      const auto [node, slot] = corners[t][i];
+      Sums<std::uint16_t>& sums = on_border[node] ? border_sums_ : inner_sums_;
+      sums.add(node, i == 0 || corners[t][i - 1].first != node, static_cast<std::uint16_t>(slot));
+    }
+    tile.end_inner = static_cast<int>(inner_sums_.nodes.size());
+    tile.end_border = static_cast<int>(border_sums_.nodes.size());
   }
 }
 
-/// Numbers the entries of the border, and gathers them by node.
-void ElementTiles::add_borders(int node_count) {
-  std::vector<std::vector<int>> entries(node_count);
-  for (const Tile& tile : tiles_) {
-    for (int i = tile.first_border; i < tile.end_node; ++i) {
-      entries[node_[i]].push_back(border_count_);
-      node_[i] = border_count_++;
+/// Gathers the sums on borders by node, and numbers them.
+void ElementTiles::add_totals(int node_count) {
+  const int count = static_cast<int>(border_sums_.nodes.size());
+  std::vector<std::vector<int>> entries_of_node;
+  std::vector<int> place(node_count, -1);
+  for (int entry = 0; entry < count; ++entry) {
+    int& at = place[border_sums_.nodes[entry]];
+    if (at < 0) {
+      at = static_cast<int>(entries_of_node.size());
+      entries_of_node.emplace_back();
+      total_sums_.nodes.push_back(border_sums_.nodes[entry]);
     }
+    entries_of_node[at].push_back(entry);
+    border_sums_.nodes[entry] = entry;
   }
-  first_entry_.assign(1, 0);
-  for (int node = 0; node < node_count; ++node) {
-    if (entries[node].empty()) continue;
-    border_node_.push_back(node);
-    border_entry_.insert(border_entry_.end(), entries[node].begin(), entries[node].end());
-    first_entry_.push_back(static_cast<int>(border_entry_.size()));
+  for (const std::vector<int>& entries : entries_of_node) {
+    total_sums_.terms.insert(total_sums_.terms.end(), entries.begin(), entries.end());
+    total_sums_.first.push_back(static_cast<int>(total_sums_.terms.size()));
   }
 }
 

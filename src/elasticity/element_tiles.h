@@ -10,9 +10,10 @@
 
 namespace cfem_cutting {
 
-/// Elements in tiles, each of them compact in space and small enough for the cache, and a tile's elements in
-/// batches of SIMD lanes: those with one matrix together, then the others. What elements give their nodes is
-/// added up tile by tile, and at last for the nodes on borders between tiles; always in the same order.
+/// Elements in tiles small enough for the cache, and a tile's elements in batches of SIMD lanes: those with one
+/// matrix together, then the others. What elements give their nodes is added up tile by tile, and at last for
+/// the nodes on borders between tiles; always in the same order. Borders are short if elements that are near
+/// each other in the set are near each other in space.
 class ElementTiles {
  public:
   struct Batch {
@@ -39,7 +40,9 @@ class ElementTiles {
   /// finish(node, sum) for each node. When a node is finished, no element needs its values any more.
   template <typename Scalar, typename Work, typename Finish>
   void sum_up(ThreadPool& pool, const Work& work, const Finish& finish) const {
-    std::vector<QuadOf<Scalar>> border(border_count_);
+    thread_local std::vector<QuadOf<Scalar>> border;  // the caller's, for all threads
+    border.resize(border_sums_.nodes.size());
+    QuadOf<Scalar>* const on_border = border.data();
     pool.for_range(static_cast<int>(tiles_.size()), kFewest / kTile, [&](int begin, int end) {
       thread_local std::vector<Line<Scalar>> lines;
       for (int t = begin; t < end; ++t) {
@@ -48,12 +51,14 @@ class ElementTiles {
         Scalar* const out = lines.data()->data();
         for (int b = tile.first_batch; b < tile.end_batch; ++b)
           work(b, out + static_cast<std::size_t>(b - tile.first_batch) * kEntries);
-        for (int i = tile.first_node; i < tile.first_border; ++i) finish(node_[i], sum_of_slots(out, i));
-        for (int i = tile.first_border; i < tile.end_node; ++i) border[node_[i]] = sum_of_slots(out, i);
+        const auto* quads = reinterpret_cast<const QuadOf<Scalar>*>(out);
+        inner_sums_.finish(quads, tile.inner, tile.end_inner, finish);
+        border_sums_.finish(quads, tile.border, tile.end_border,
+                            [on_border](int entry, const auto& sum) { on_border[entry] = sum; });
       }
     });
-    pool.for_range(static_cast<int>(border_node_.size()), kFewest, [&](int begin, int end) {
-      for (int i = begin; i < end; ++i) finish(border_node_[i], sum_of_entries(border, i));
+    pool.for_range(static_cast<int>(total_sums_.nodes.size()), kFewest, [&](int begin, int end) {
+      total_sums_.finish(on_border, begin, end, finish);
     });
   }
 
@@ -74,38 +79,51 @@ class ElementTiles {
   template <typename Scalar>
   using QuadOf = Eigen::Matrix<Scalar, 4, 1>;
 
-  template <typename Scalar>
-  QuadOf<Scalar> sum_of_slots(const Scalar* quads, int i) const {
-    QuadOf<Scalar> sum = QuadOf<Scalar>::Zero();
-    for (int s = first_slot_[i]; s < first_slot_[i + 1]; ++s)
-      sum += QuadOf<Scalar>::MapAligned(quads + 4 * std::size_t{slots_[s]});
-    return sum;
-  }
+  /// Sums of quads, one a node.
+  template <typename Index>
+  struct Sums {
+    std::vector<int> nodes;
+    std::vector<int> first{0};  // (|nodes| + 1) into terms
+    std::vector<Index> terms;
 
-  template <typename Quads>
-  typename Quads::value_type sum_of_entries(const Quads& border, int i) const {
-    typename Quads::value_type sum = border[border_entry_[first_entry_[i]]];
-    for (int e = first_entry_[i] + 1; e < first_entry_[i + 1]; ++e) sum += border[border_entry_[e]];
-    return sum;
-  }
+    /// Adds a term to the last sum, or to a new one.
+    void add(int node, bool anew, Index term) {
+      if (anew) {
+        nodes.push_back(node);
+        first.push_back(first.back());
+      }
+      terms.push_back(term);
+      ++first.back();
+    }
+
+    /// Calls finish(node, sum) for nodes [begin, end). Copies of pointers and of `finish` stay in registers.
+    template <typename Quad, typename Finish>
+    void finish(const Quad* quads, int begin, int end, Finish finish) const {
+      const int* const node = nodes.data();
+      const int* const last = first.data() + 1;
+      const Index* term = terms.data() + first[begin];
+      for (int i = begin; i < end; ++i) {
+        Quad sum = quads[*term++];
+        for (const Index* const stop = terms.data() + last[i]; term != stop; ++term) sum += quads[*term];
+        finish(node[i], sum);
+      }
+    }
+  };
 
   struct Tile {
     int first_batch, end_batch;
-    int first_node, first_border, end_node;  // in node_: nodes of this tile alone, then the others
+    int inner = 0, end_inner = 0;    // in inner_sums_: nodes of this tile alone
+    int border = 0, end_border = 0;  // in border_sums_: the others
   };
 
   void add_batches(const std::vector<int>& elements, bool shared);
-  void add_tile(const ElementSet& elements, const std::vector<int>& of_tile);
-  void add_nodes(const ElementSet& elements, const NodeCorners& at, const std::vector<int>& tile_of_element);
-  void add_borders(int node_count);
+  void add_tile(const ElementSet& elements, int begin, int end);
+  void add_nodes(const ElementSet& elements);
+  void add_totals(int node_count);
 
   std::vector<Tile> tiles_;
-  std::vector<int> node_;             // per tile; beyond first_border: entries of the border
-  std::vector<int> first_slot_;       // (|node_| + 1) into slots_
-  std::vector<std::uint16_t> slots_;  // quads of a tile's batches
-  int border_count_ = 0;
-  std::vector<int> border_node_;
-  std::vector<int> first_entry_, border_entry_;  // (|border_node_| + 1) into entries of the border
+  Sums<std::uint16_t> inner_sums_, border_sums_;  // of a tile's quads
+  Sums<int> total_sums_;                          // of border_sums_, in order
 };
 
 }  // namespace cfem_cutting

@@ -4,13 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
+// A lambda's body goes into the loop that calls it.
+#if defined(__GNUC__)
+#define CFEM_CUTTING_INLINE __attribute__((always_inline))
+#else
+#define CFEM_CUTTING_INLINE
+#endif
+
 namespace cfem_cutting {
 namespace {
 
 /// The smoother damps the eigenvalues from a part of the largest one to that, by a Chebyshev polynomial of
 /// this degree.
 constexpr int kDegree = 3;
-constexpr double kSmoothedPart = 0.05;
+constexpr double kSmoothedPart = 0.04;
 constexpr double kSafety = 1.1;
 constexpr int kPowerIterations = 10;
 
@@ -35,7 +42,7 @@ Mat3 inverse_or_zero(const Mat3& block) {
 
 /// A node's block times a quad.
 template <typename Block, typename Vector>
-Quad times(const Block& block, const Vector& v) {
+EIGEN_ALWAYS_INLINE Quad times(const Block& block, const Vector& v) {
   return v[0] * block.col(0) + v[1] * block.col(1) + v[2] * block.col(2);
 }
 
@@ -142,9 +149,8 @@ void LevelSystem::prepare_constraints() {
 
 void LevelSystem::apply(const SingleField& p, SingleField& y) const {
   y.resize(4, p.cols());
-  product_.apply(p, [&, s = stiffness_factor_](int n, const Quad& sum) {
-    y.col(n) = s * sum + node_diagonal_[n] * p.col(n);
-  });
+  product_.apply(p, [p = quads_of(p), y = quads_of(y), d = node_diagonal_.data(), s = stiffness_factor_](
+                        int n, const Quad& sum) CFEM_CUTTING_INLINE { y[n] = s * sum + d[n] * p[n]; });
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     add_to_nodes(constraints_[i], constraints_[i].stiffness * displacement(constraints_[i], p), y);
 }
@@ -180,7 +186,7 @@ void LevelSystem::scale(const SingleField& r, float factor, SingleField& z) cons
 
 /// What constraints, which are stiff and few, change in factor M⁻¹ r (Woodbury's formula).
 void LevelSystem::correct_for_constraints(const SingleField& r, float factor, SingleField& z) const {
-  if (constraints_.empty()) return;
+  if (constraints_.empty() || factor == 0.0f) return;
   Eigen::VectorXf along(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const ConstraintRow& row = constraints_[i];
@@ -195,56 +201,93 @@ void LevelSystem::correct_for_constraints(const SingleField& r, float factor, Si
   for (std::size_t i = 0; i < constraints_.size(); ++i) add_scaled_to_nodes(constraints_[i], -along[i], z);
 }
 
+/// x = 0, r = b, step = add M⁻¹ r
+void LevelSystem::begin_from_zero(const SingleField& b, float add, SingleField& x, SingleField& r) const {
+  for (SingleField* field : {&x, &r, &step_}) field->resize(4, b.cols());
+  for_nodes([&](int begin, int end) {
+    for (int n = begin; n < end; ++n) {
+      x.col(n).setZero();
+      r.col(n) = b.col(n);
+      step_.col(n) = add * times(inverse_[n], b.col(n));
+    }
+  });
+  correct_for_constraints(r, add, step_);
+}
+
+/// r = b − A x, step = add M⁻¹ r
+void LevelSystem::begin(const SingleField& b, const SingleField& x, float add, SingleField& r) const {
+  r.resize(4, b.cols());
+  step_.resize(4, b.cols());
+  product_.apply(x, [b = quads_of(b), x = quads_of(x), r = quads_of(r), step = quads_of(step_),
+                     inverse = inverse_.data(), d = node_diagonal_.data(), s = stiffness_factor_,
+                     add](int n, const Quad& sum) CFEM_CUTTING_INLINE {
+    const Quad left = b[n] - (s * sum + d[n] * x[n]);
+    r[n] = left;
+    step[n] = add * times(inverse[n], left);
+  });
+  for (const ConstraintRow& row : constraints_) take(row, row.stiffness * displacement(row, x), add, r);
+  correct_for_constraints(r, add, step_);
+}
+
 /// One sweep of Chebyshev's iteration: x += step, r −= A step, step = keep step + add M⁻¹ r.
 void LevelSystem::advance(float keep, float add, SingleField& x, SingleField& r) const {
   Eigen::VectorXf forces(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     forces[i] = constraints_[i].stiffness * displacement(constraints_[i], step_);
-  product_.apply(step_, [&, s = stiffness_factor_](int n, const Quad& sum) {
-    const Quad step = step_.col(n);
-    const Quad left = r.col(n) - (s * sum + node_diagonal_[n] * step);
-    x.col(n) += step;
-    r.col(n) = left;
-    step_.col(n) = keep * step + add * times(inverse_[n], left);
+  product_.apply(step_, [x = quads_of(x), r = quads_of(r), step = quads_of(step_), inverse = inverse_.data(),
+                         d = node_diagonal_.data(), s = stiffness_factor_, keep,
+                         add](int n, const Quad& sum) CFEM_CUTTING_INLINE {
+    const Quad taken = step[n];
+    const Quad left = r[n] - (s * sum + d[n] * taken);
+    x[n] += taken;
+    r[n] = left;
+    step[n] = keep * taken + add * times(inverse[n], left);
   });
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    add_to_nodes(constraints_[i], -forces[i], r);
-    add_scaled_to_nodes(constraints_[i], -add * forces[i], step_);
-  }
-  if (add != 0.0f) correct_for_constraints(r, add, step_);
+  for (std::size_t i = 0; i < constraints_.size(); ++i) take(constraints_[i], forces[i], add, r);
+  correct_for_constraints(r, add, step_);
 }
 
-/// Chebyshev's iteration (Saad 2003, algorithm 12.1) from x with residual r; r goes along to the end if
-/// wanted.
-void LevelSystem::polish(SingleField& x, SingleField& r, bool residual_wanted) const {
-  const auto centre = static_cast<float>(0.5 * largest_ * (1.0 + kSmoothedPart));
-  const auto half_width = static_cast<float>(0.5 * largest_ * (1.0 - kSmoothedPart));
-  const float sigma = centre / half_width;
-  float rho = 1.0f / sigma;
-  scale(r, 1.0f / centre, step_);
-  for (int k = 1; k < kDegree; ++k) {
-    const float next = 1.0f / (2.0f * sigma - rho);
-    advance(next * rho, 2.0f * next / half_width, x, r);
-    rho = next;
-  }
-  if (residual_wanted) {
-    advance(0.0f, 0.0f, x, r);
-  } else {
-    x += step_;
-  }
+/// Takes a constraint's force out of r, and of step = … + add M⁻¹ r.
+void LevelSystem::take(const ConstraintRow& row, float force, float add, SingleField& r) const {
+  add_to_nodes(row, -force, r);
+  add_scaled_to_nodes(row, -add * force, step_);
 }
+
+/// Chebyshev's iteration (Saad 2003, algorithm 12.1) for the eigenvalues to be smoothed.
+struct LevelSystem::Chebyshev {
+  explicit Chebyshev(double largest)
+      : half_width(static_cast<float>(0.5 * largest * (1.0 - kSmoothedPart))),
+        sigma(static_cast<float>((1.0 + kSmoothedPart) / (1.0 - kSmoothedPart))),
+        rho(1.0f / sigma) {}
+  float first() const { return 1.0f / (sigma * half_width); }
+  void next() {
+    const float before = rho;
+    rho = 1.0f / (2.0f * sigma - before);
+    keep = rho * before;
+    add = 2.0f * rho / half_width;
+  }
+  float half_width, sigma, rho, keep = 0.0f, add = 0.0f;
+};
 
 void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const {
-  x = SingleField::Zero(4, b.cols());
-  r = b;
-  polish(x, r, true);
+  Chebyshev chebyshev(largest_);
+  begin_from_zero(b, chebyshev.first(), x, r);
+  for (int k = 1; k < kDegree; ++k) {
+    chebyshev.next();
+    advance(chebyshev.keep, chebyshev.add, x, r);
+  }
+  advance(0.0f, 0.0f, x, r);
 }
 
 void LevelSystem::smooth(const SingleField& b, SingleField& x) const {
+  Chebyshev chebyshev(largest_);
   SingleField& r = residual_;
-  apply(x, r);
-  r = b - r;
-  polish(x, r, false);
+  begin(b, x, chebyshev.first(), r);
+  for (int k = 1; k < kDegree; ++k) {
+    chebyshev.next();
+    advance(chebyshev.keep, chebyshev.add, x, r);
+  }
+  x += step_;
 }
 
 void LevelSystem::factorise() {

@@ -56,7 +56,11 @@ class LevelSystem {
 
   template <typename Work>
   void for_nodes(const Work& work) const;
+  struct Chebyshev;
+  void begin_from_zero(const SingleField& b, float add, SingleField& x, SingleField& r) const;
+  void begin(const SingleField& b, const SingleField& x, float add, SingleField& r) const;
   void advance(float keep, float add, SingleField& x, SingleField& r) const;
+  void take(const ConstraintRow& row, float force, float add, SingleField& r) const;
   void scale(const SingleField& r, float factor, SingleField& z) const;
   void correct_for_constraints(const SingleField& r, float factor, SingleField& z) const;
   float displacement(const ConstraintRow& row, const SingleField& p) const;
@@ -65,7 +69,6 @@ class LevelSystem {
   void prepare_constraints();
   void invert_at_rest();
   void turn_inverses();
-  void polish(SingleField& x, SingleField& r, bool residual_wanted) const;
   double largest_eigenvalue() const;
 
   ElementProduct product_;
