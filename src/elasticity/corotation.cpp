@@ -50,14 +50,13 @@ Corotation::Corotation(ElementSet elements, std::vector<const MeanGradient*> gra
       gradient_(std::move(gradients)),
       block_size_(block_size),
       kinematics_(kinematics),
-      tiles_(elements_) {
+      tiles_(elements_),
+      stiffness_(elements_, tiles_) {
   packed_gradient_.assign(static_cast<std::size_t>(tiles_.size()) * 24 * kLanes, 0.0);
-  packed_stiffness_.reserve(static_cast<std::size_t>(tiles_.size()) * kLanes);
   for (int b = 0; b < tiles_.size(); ++b) {
     const ElementTiles::Batch& batch = tiles_.batches[b];
     for (int lane = 0; lane < kLanes; ++lane) {
       const int e = tiles_.element_of_lane[batch.first + std::min(lane, batch.count - 1)];
-      packed_stiffness_.push_back(elements_.stiffness[e]->data());
       for (int i = 0; i < 24; ++i)
         packed_gradient_[static_cast<std::size_t>(b) * 24 * kLanes + i * kLanes + lane] =
             gradient_[e]->data()[i];
@@ -92,10 +91,9 @@ void Corotation::respond_batch(int b, const NodeField& x, double* forces, Lanes&
   double* energy = lanes.energy.data() + at * kLanes;
   bool regular[kLanes] = {};
   if (kinematics_ == Kinematics::kCorotational)
-    cfem_cutting::respond({x.data(), tiles_.nodes_of(b),
-                           packed_gradient_.data() + at * 24 * kLanes, block_size_.data(),
-                           packed_stiffness_.data() + at * kLanes, batch.shared, forces, rotations, energy,
-                           regular});
+    cfem_cutting::respond({x.data(), tiles_.nodes_of(b), packed_gradient_.data() + at * 24 * kLanes,
+                           block_size_.data(), stiffness_.form(b), stiffness_.of_batch(b), forces, rotations,
+                           energy, regular});
   for (int lane = 0; lane < batch.count; ++lane)
     if (!regular[lane])
       lanes.inverted[b] += respond_singly(tiles_.element_of_lane[batch.first + lane], x, forces + 4 * place_of_lane(lane),

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "element_tiles.h"
 #include "element_matrix.h"
+#include "packed_stiffness.h"
 
 namespace cfem_cutting {
 
@@ -29,7 +29,7 @@ class Corotation {
   Kinematics kinematics_ = Kinematics::kCorotational;
   ElementTiles tiles_;
   std::vector<double> packed_gradient_;          // (|batches| × 24 × lanes)
-  std::vector<const double*> packed_stiffness_;  // (|batches| × lanes)
+  PackedStiffness<double> stiffness_;
 };
 
 }  // namespace cfem_cutting

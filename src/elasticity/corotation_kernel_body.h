@@ -1,16 +1,9 @@
 // No include guard: corotation_kernel.cpp includes this once per instruction set, with KERNEL_NAMESPACE and
-// KERNEL_BYTES (of a register) defined. See element_kernel_body.h.
+// what lanes_body.h needs defined.
 
 namespace KERNEL_NAMESPACE {
 
-typedef double Vector __attribute__((vector_size(KERNEL_BYTES)));
-typedef double Loose __attribute__((vector_size(KERNEL_BYTES), aligned(8), may_alias));
-
-constexpr int kWidth = KERNEL_BYTES / 8;
-constexpr int kRowVectors = 24 / kWidth;
-
-static inline Vector load(const double* p) { return *reinterpret_cast<const Loose*>(p); }
-static inline void store(double* p, Vector v) { *reinterpret_cast<Loose*>(p) = v; }
+#include "lanes_body.h"
 
 static inline void cross(const Vector* a, const Vector* b, Vector* c) {
   c[0] = a[1] * b[2] - a[2] * b[1];
@@ -48,25 +41,6 @@ static inline Vector rotation_of(const Vector* F, Vector* R, Vector* change) {
   return det;
 }
 
-static inline void multiply_shared(const double* K, const Vector* u, Vector* f) {
-  for (int row = 0; row < 24; row += 12) {
-    Vector sum[12] = {};
-    for (int j = 0; j < 24; ++j)
-      for (int r = 0; r < 12; ++r) sum[r] += K[24 * j + row + r] * u[j];  // symmetric
-    for (int r = 0; r < 12; ++r) f[row + r] = sum[r];
-  }
-}
-
-/// Lane by lane, the matrix's columns as vectors.
-static inline void multiply_own(const double* const* K, const Vector* u, Vector* f) {
-  for (int l = 0; l < kWidth; ++l) {
-    Vector sum[kRowVectors] = {};
-    for (int j = 0; j < 24; ++j)
-      for (int r = 0; r < kRowVectors; ++r) sum[r] += load(K[l] + 24 * j + r * kWidth) * u[j][l];
-    for (int i = 0; i < 24; ++i) f[i][l] = sum[i / kWidth][i % kWidth];
-  }
-}
-
 /// Takes the change of R with x into account: f −= q × g with (tr(S) I − S) q = Σ y × f, S = RᵀF.
 /// @return the determinant of tr(S) I − S
 static inline Vector add_spin(const Vector* y, const Vector* g, Vector* f) {
@@ -90,7 +64,7 @@ static inline Vector add_spin(const Vector* y, const Vector* g, Vector* f) {
 }
 
 static void respond_lanes(const CorotationBatch& batch, int lane) {
-  Vector x[24], y[24], u[24], f[24], g[24], F[9] = {}, R[9], change;
+  Vector x[24], y[24], u[24], spare[24], f[24], g[24], F[9] = {}, R[9], change;
   for (int n = 0; n < 8; ++n)
     for (int l = 0; l < kWidth; ++l) {
       const double* node = batch.x + 3 * static_cast<long>(batch.nodes[kLanes * n + lane + l]);
@@ -107,11 +81,8 @@ static void respond_lanes(const CorotationBatch& batch, int lane) {
       y[3 * n + i] = R[i] * x[3 * n] + R[3 + i] * x[3 * n + 1] + R[6 + i] * x[3 * n + 2];
       u[3 * n + i] = y[3 * n + i] - (n >> i & 1) * batch.block_size[i];
     }
-  if (batch.shared) {
-    multiply_shared(batch.stiffness[0], u, f);
-  } else {
-    multiply_own(batch.stiffness + lane, u, f);
-  }
+  for (int i = 0; i < 24; ++i) spare[i] = u[i];
+  multiply_lanes(batch.form, batch.stiffness, lane, spare, f);
   Vector energy = {};
   for (int i = 0; i < 24; ++i) energy += 0.5 * u[i] * f[i];
   store(batch.energy + lane, energy);

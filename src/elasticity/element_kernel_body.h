@@ -1,17 +1,10 @@
 // No include guard: element_kernel.cpp includes this once per instruction set and type, with
-// KERNEL_NAMESPACE, KERNEL_SCALAR, KERNEL_BYTES (of a register) and KERNEL_WIDTH (its lanes) defined. Plain
-// arrays and no templates inside, so that no code for one instruction set can be merged with code for another.
+// KERNEL_NAMESPACE defined, what lanes_body.h needs, and for types whose quads are gathered by shuffles
+// KERNEL_QUADS(a, b, c, d): the indices a, b, c, d, a + 4, b + 4, ... of a register.
 
 namespace KERNEL_NAMESPACE {
 
-typedef KERNEL_SCALAR Vector __attribute__((vector_size(KERNEL_BYTES)));
-typedef KERNEL_SCALAR Loose __attribute__((vector_size(KERNEL_BYTES), aligned(4), may_alias));
-
-constexpr int kWidth = KERNEL_WIDTH;
-constexpr int kRows = 12;
-
-static inline Vector load(const KERNEL_SCALAR* p) { return *reinterpret_cast<const Loose*>(p); }
-static inline void store(KERNEL_SCALAR* p, Vector v) { *reinterpret_cast<Loose*>(p) = v; }
+#include "lanes_body.h"
 
 #ifdef KERNEL_QUADS
 
@@ -76,95 +69,14 @@ static inline void scatter(const Vector* values, int lane, KERNEL_SCALAR* y) {
 
 #endif
 
-/// u = Rᵀ x (transposed) or R x for nodes from the first on.
-static inline void rotate(const Vector* R, bool transposed, int first, const Vector* x, Vector* u) {
-  for (int n = first; n < 8; ++n) {
-    for (int i = 0; i < 3; ++i) {
-      const Vector a = R[transposed ? i : 3 * i], b = R[transposed ? 3 + i : 3 * i + 1];
-      const Vector c = R[transposed ? 6 + i : 3 * i + 2];
-      u[3 * n + i] = a * x[3 * n] + b * x[3 * n + 1] + c * x[3 * n + 2];
-    }
-  }
-}
-
-/// Σ (−1)^|s & n| v_n for each s: Walsh's transform over the nodes.
-static inline void transform(Vector* v) {
-  for (int bit = 1; bit < 8; bit *= 2) {
-    for (int n = 0; n < 8; ++n) {
-      if (n & bit) continue;
-      for (int i = 0; i < 3; ++i) {
-        const Vector a = v[3 * n + i], b = v[3 * (n | bit) + i];
-        v[3 * n + i] = a + b;
-        v[3 * (n | bit) + i] = a - b;
-      }
-    }
-  }
-}
-
-/// y = R K Rᵀ x by MirroredMatrix: what is left of K are eight blocks. x is used up.
-static inline void multiply_mirrored(const KERNEL_SCALAR* K, const Vector* R, Vector* x, Vector* y) {
-  Vector u[24] = {};  // a translation, which comes first, has no forces
-  transform(x);
-  rotate(R, true, 1, x, u);
-#pragma GCC unroll 8
-  for (int p = 0; p < 8; ++p) {
-    for (int i = 0; i < 3; ++i) {
-      const KERNEL_SCALAR* k = K + 9 * p + 3 * i;
-      x[3 * (p ^ 1 << i) + i] = k[0] * u[3 * (p ^ 1)] + k[1] * u[3 * (p ^ 2) + 1] + k[2] * u[3 * (p ^ 4) + 2];
-    }
-  }
-  rotate(R, false, 1, x, y);
-  for (int i = 0; i < 3; ++i) y[i] = u[i];
-  transform(y);
-}
-
-static inline void multiply_shared(const KERNEL_SCALAR* K, const Vector* u, Vector* f) {
-  for (int row = 0; row < 24; row += kRows) {
-    Vector sum[kRows] = {};
-    for (int j = 0; j < 24; ++j)
-      for (int r = 0; r < kRows; ++r) sum[r] += K[24 * j + row + r] * u[j];  // symmetric
-    for (int r = 0; r < kRows; ++r) f[row + r] = sum[r];
-  }
-}
-
-/// Each entry below the diagonal serves twice.
-static inline void multiply_own(const KERNEL_SCALAR* K, const Vector* u, Vector* f) {
-  Vector sum[24] = {};
-#pragma GCC unroll 24
-  for (int j = 0; j < 24; ++j) {
-    const KERNEL_SCALAR* column = K + 16 * (24 * j - j * (j - 1) / 2);
-    Vector even = load(column) * u[j], odd = {};
-#pragma GCC unroll 24
-    for (int i = j + 1; i < 24; ++i) {
-      const Vector k = load(column + 16 * (i - j));
-      sum[i] += k * u[j];
-      if (i & 1) {
-        odd += k * u[i];
-      } else {
-        even += k * u[i];
-      }
-    }
-    sum[j] += even + odd;
-  }
-  for (int i = 0; i < 24; ++i) f[i] = sum[i];
-}
-
 static void multiply(const ElementBatch<KERNEL_SCALAR>& batch) {
   for (int lane = 0; lane < kLanes; lane += kWidth) {
     Vector x[24], u[24], R[9];
     for (int n = 0; n < 8; ++n) gather(batch.x, batch.nodes + kLanes * n + lane, x + 3 * n);
     for (int i = 0; i < 9; ++i) R[i] = load(batch.rotation + kLanes * i + lane);
-    if (batch.form == MatrixForm::kMirrored) {
-      multiply_mirrored(batch.stiffness, R, x, u);
-    } else {
-      rotate(R, true, 0, x, u);
-      if (batch.form == MatrixForm::kWhole) {
-        multiply_shared(batch.stiffness, u, x);
-      } else {
-        multiply_own(batch.stiffness + lane, u, x);
-      }
-      rotate(R, false, 0, x, u);
-    }
+    rotate(R, true, x, u);
+    multiply_lanes(batch.form, batch.stiffness, lane, u, x);
+    rotate(R, false, x, u);
     for (int n = 0; n < 8; ++n) scatter(u + 3 * n, lane, batch.y + 4 * kLanes * n);
   }
 }

@@ -1,27 +1,6 @@
 #include "element_product.h"
 
-#include "mirrored_matrix.h"
-
 namespace cfem_cutting {
-namespace {
-
-template <typename Scalar>
-void append(const ElementMatrix& K, std::vector<Scalar>& out) {
-  for (int i = 0; i < K.size(); ++i) out.push_back(static_cast<Scalar>(K.data()[i]));
-}
-
-template <typename Scalar>
-void append(const MirroredMatrix& K, std::vector<Scalar>& out) {
-  for (int i = 0; i < K.size(); ++i) out.push_back(static_cast<Scalar>(K.data()[i]));
-}
-
-template <typename Scalar>
-void pack_triangle(const ElementMatrix& K, Scalar* out) {
-  for (int j = 0; j < 24; ++j)
-    for (int i = j; i < 24; ++i, out += kLanes) *out = static_cast<Scalar>(K(i, j));
-}
-
-}  // namespace
 
 SingleField to_quads(const NodeField& field) {
   SingleField quads(4, field.cols());
@@ -69,46 +48,18 @@ std::vector<Mat3> ElementProduct::diagonal_at_rest() const {
 
 template <typename Scalar>
 void ElementProduct::fit(Packed<Scalar>& packed) const {
-  if (!packed.stiffness_fits) pack_stiffness(packed);
-  if (!packed.rotations_fit) pack_rotations(packed);
+  if (!packed.stiffness_fits) packed.stiffness = PackedStiffness<Scalar>(elements_, tiles_);
+  if (!packed.rotations_fit) pack_rotations(packed.rotations);
+  packed.stiffness_fits = packed.rotations_fit = true;
 }
 template void ElementProduct::fit(Packed<float>& packed) const;
 
 template <typename Scalar>
-void ElementProduct::pack_stiffness(Packed<Scalar>& packed) const {
-  packed.stiffness_fits = true;
-  packed.stiffness.clear();
-  packed.stiffness_of_batch.clear();
-  packed.form_of_batch.clear();
-  std::unordered_map<const ElementMatrix*, std::pair<std::size_t, MatrixForm>> known;
-  for (const ElementTiles::Batch& batch : tiles_.batches) {
-    const ElementMatrix* K = elements_.stiffness[tiles_.element_of_lane[batch.first]].get();
-    std::pair<std::size_t, MatrixForm> place{packed.stiffness.size(), MatrixForm::kTriangles};
-    if (!batch.shared) {
-      packed.stiffness.resize(place.first + kTriangle * kLanes, Scalar{0});
-      for (int lane = 0; lane < batch.count; ++lane)
-        pack_triangle(*elements_.stiffness[tiles_.element_of_lane[batch.first + lane]],
-                      packed.stiffness.data() + place.first + lane);
-    } else if (const auto it = known.find(K); it != known.end()) {
-      place = it->second;
-    } else {
-      const std::optional<MirroredMatrix> blocks = mirrored(*K);
-      place.second = blocks ? MatrixForm::kMirrored : MatrixForm::kWhole;
-      blocks ? append(*blocks, packed.stiffness) : append(*K, packed.stiffness);
-      known[K] = place;
-    }
-    packed.stiffness_of_batch.push_back(place.first);
-    packed.form_of_batch.push_back(place.second);
-  }
-  packed.rotations.assign(static_cast<std::size_t>(tiles_.size()) * 9 * kLanes, Scalar{0});
-}
-
-template <typename Scalar>
-void ElementProduct::pack_rotations(Packed<Scalar>& packed) const {
-  packed.rotations_fit = true;
+void ElementProduct::pack_rotations(std::vector<Scalar>& packed) const {
+  packed.resize(static_cast<std::size_t>(tiles_.size()) * 9 * kLanes, Scalar{0});
   tiles_.for_each(*pool_, [&](int b) {
     const ElementTiles::Batch& batch = tiles_.batches[b];
-    Scalar* out = packed.rotations.data() + static_cast<std::size_t>(b) * 9 * kLanes;
+    Scalar* out = packed.data() + static_cast<std::size_t>(b) * 9 * kLanes;
     for (int lane = 0; lane < batch.count; ++lane) {
       const Mat3& R = rotations_[tiles_.element_of_lane[batch.first + lane]];
       for (int i = 0; i < 9; ++i) out[i * kLanes + lane] = static_cast<Scalar>(R(i / 3, i % 3));

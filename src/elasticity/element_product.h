@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "element_tiles.h"
+#include "packed_stiffness.h"
 
 namespace cfem_cutting {
 
@@ -52,21 +52,17 @@ class ElementProduct {
   /// Arrays for the kernel in one precision.
   template <typename Scalar>
   struct Packed {
-    std::vector<Scalar> stiffness;
-    std::vector<std::size_t> stiffness_of_batch;  // offsets
-    std::vector<MatrixForm> form_of_batch;
+    PackedStiffness<Scalar> stiffness;
     std::vector<Scalar> rotations;  // (|batches| × 9 × lanes)
     bool stiffness_fits = false, rotations_fit = false;
   };
   template <typename Scalar>
   void fit(Packed<Scalar>& packed) const;
   template <typename Scalar>
-  void pack_stiffness(Packed<Scalar>& packed) const;
-  template <typename Scalar>
-  void pack_rotations(Packed<Scalar>& packed) const;
+  void pack_rotations(std::vector<Scalar>& packed) const;
   template <typename Scalar>
   ElementBatch<Scalar> batch(const Packed<Scalar>& packed, int b, const Scalar* p, Scalar* y) const {
-    return {packed.form_of_batch[b], packed.stiffness.data() + packed.stiffness_of_batch[b],
+    return {packed.stiffness.form(b), packed.stiffness.of_batch(b),
             packed.rotations.data() + static_cast<std::size_t>(b) * 9 * kLanes, tiles_.nodes_of(b), p, y};
   }
 

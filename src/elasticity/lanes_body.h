@@ -1,0 +1,92 @@
+// No include guard: a kernel includes this inside its namespace, once per instruction set and type, with
+// KERNEL_SCALAR, KERNEL_BYTES (of a register) and KERNEL_WIDTH (its lanes) defined. Plain arrays and no
+// templates inside, so that no code for one instruction set can be merged with code for another.
+
+typedef KERNEL_SCALAR Vector __attribute__((vector_size(KERNEL_BYTES)));
+typedef KERNEL_SCALAR Loose __attribute__((vector_size(KERNEL_BYTES), aligned(4), may_alias));
+
+constexpr int kWidth = KERNEL_WIDTH;
+constexpr int kRows = 12;
+
+static inline Vector load(const KERNEL_SCALAR* p) { return *reinterpret_cast<const Loose*>(p); }
+static inline void store(KERNEL_SCALAR* p, Vector v) { *reinterpret_cast<Loose*>(p) = v; }
+
+/// u = Rᵀ x (transposed) or R x.
+static inline void rotate(const Vector* R, bool transposed, const Vector* x, Vector* u) {
+  for (int n = 0; n < 8; ++n) {
+    for (int i = 0; i < 3; ++i) {
+      const Vector a = R[transposed ? i : 3 * i], b = R[transposed ? 3 + i : 3 * i + 1];
+      const Vector c = R[transposed ? 6 + i : 3 * i + 2];
+      u[3 * n + i] = a * x[3 * n] + b * x[3 * n + 1] + c * x[3 * n + 2];
+    }
+  }
+}
+
+/// Σ (−1)^|s & n| v_n for each s: Walsh's transform over the nodes.
+static inline void transform(Vector* v) {
+  for (int bit = 1; bit < 8; bit *= 2) {
+    for (int n = 0; n < 8; ++n) {
+      if (n & bit) continue;
+      for (int i = 0; i < 3; ++i) {
+        const Vector a = v[3 * n + i], b = v[3 * (n | bit) + i];
+        v[3 * n + i] = a + b;
+        v[3 * (n | bit) + i] = a - b;
+      }
+    }
+  }
+}
+
+/// f = K u by MirroredMatrix: what is left of K are eight blocks.
+static inline void multiply_mirrored(const KERNEL_SCALAR* K, Vector* u, Vector* f) {
+  transform(u);
+#pragma GCC unroll 8
+  for (int p = 0; p < 8; ++p) {
+    for (int i = 0; i < 3; ++i) {
+      const KERNEL_SCALAR* k = K + 9 * p + 3 * i;
+      f[3 * (p ^ 1 << i) + i] = k[0] * u[3 * (p ^ 1)] + k[1] * u[3 * (p ^ 2) + 1] + k[2] * u[3 * (p ^ 4) + 2];
+    }
+  }
+  transform(f);
+}
+
+static inline void multiply_whole(const KERNEL_SCALAR* K, const Vector* u, Vector* f) {
+  for (int row = 0; row < 24; row += kRows) {
+    Vector sum[kRows] = {};
+    for (int j = 0; j < 24; ++j)
+      for (int r = 0; r < kRows; ++r) sum[r] += K[24 * j + row + r] * u[j];  // symmetric
+    for (int r = 0; r < kRows; ++r) f[row + r] = sum[r];
+  }
+}
+
+/// Each entry below the diagonal serves twice.
+static inline void multiply_triangles(const KERNEL_SCALAR* K, const Vector* u, Vector* f) {
+  Vector sum[24] = {};
+#pragma GCC unroll 24
+  for (int j = 0; j < 24; ++j) {
+    const KERNEL_SCALAR* column = K + 16 * (24 * j - j * (j - 1) / 2);
+    Vector even = load(column) * u[j], odd = {};
+#pragma GCC unroll 24
+    for (int i = j + 1; i < 24; ++i) {
+      const Vector k = load(column + 16 * (i - j));
+      sum[i] += k * u[j];
+      if (i & 1) {
+        odd += k * u[i];
+      } else {
+        even += k * u[i];
+      }
+    }
+    sum[j] += even + odd;
+  }
+  for (int i = 0; i < 24; ++i) f[i] = sum[i];
+}
+
+/// f = K u, of lanes from `lane` on of a batch. u is used up.
+static inline void multiply_lanes(MatrixForm form, const KERNEL_SCALAR* K, int lane, Vector* u, Vector* f) {
+  if (form == MatrixForm::kMirrored) {
+    multiply_mirrored(K, u, f);
+  } else if (form == MatrixForm::kWhole) {
+    multiply_whole(K, u, f);
+  } else {
+    multiply_triangles(K + lane, u, f);
+  }
+}
