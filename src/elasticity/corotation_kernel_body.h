@@ -64,7 +64,7 @@ static inline Vector add_spin(const Vector* y, const Vector* g, Vector* f) {
 }
 
 static void respond_lanes(const CorotationBatch& batch, int lane) {
-  Vector x[24], y[24], u[24], spare[24], f[24], g[24], F[9] = {}, R[9], change;
+  Vector x[24], y[24], u[24], f[24], g[24], F[9] = {}, R[9], change;
   for (int n = 0; n < 8; ++n)
     for (int l = 0; l < kWidth; ++l) {
       const double* node = batch.x + 3 * static_cast<long>(batch.nodes[kLanes * n + lane + l]);
@@ -81,8 +81,15 @@ static void respond_lanes(const CorotationBatch& batch, int lane) {
       y[3 * n + i] = R[i] * x[3 * n] + R[3 + i] * x[3 * n + 1] + R[6 + i] * x[3 * n + 2];
       u[3 * n + i] = y[3 * n + i] - (n >> i & 1) * batch.block_size[i];
     }
-  for (int i = 0; i < 24; ++i) spare[i] = u[i];
-  multiply_lanes(batch.form, batch.stiffness, lane, spare, f);
+  if (batch.form == MatrixForm::kMirrored) {
+    Vector modes[24];
+    for (int i = 0; i < 24; ++i) modes[i] = u[i];
+    transform(modes);
+    multiply_blocks(batch.stiffness, modes, f);
+    transform(f);
+  } else {
+    multiply_unmirrored(batch.form, batch.stiffness, lane, u, f);
+  }
   Vector energy = {};
   for (int i = 0; i < 24; ++i) energy += 0.5 * u[i] * f[i];
   store(batch.energy + lane, energy);

@@ -69,14 +69,29 @@ static inline void scatter(const Vector* values, int lane, KERNEL_SCALAR* y) {
 
 #endif
 
+/// y = R K Rᵀ x; x is used up. Transformed, the first node is a translation, which has no forces.
+static inline void multiply_mirrored(const KERNEL_SCALAR* K, const Vector* R, Vector* x, Vector* y) {
+  Vector u[24] = {};
+  transform(x);
+  rotate(R, true, 1, x, u);
+  multiply_blocks(K, u, x);
+  rotate(R, false, 1, x, y);
+  for (int i = 0; i < 3; ++i) y[i] = u[i];
+  transform(y);
+}
+
 static void multiply(const ElementBatch<KERNEL_SCALAR>& batch) {
   for (int lane = 0; lane < kLanes; lane += kWidth) {
     Vector x[24], u[24], R[9];
     for (int n = 0; n < 8; ++n) gather(batch.x, batch.nodes + kLanes * n + lane, x + 3 * n);
     for (int i = 0; i < 9; ++i) R[i] = load(batch.rotation + kLanes * i + lane);
-    rotate(R, true, x, u);
-    multiply_lanes(batch.form, batch.stiffness, lane, u, x);
-    rotate(R, false, x, u);
+    if (batch.form == MatrixForm::kMirrored) {
+      multiply_mirrored(batch.stiffness, R, x, u);
+    } else {
+      rotate(R, true, 0, x, u);
+      multiply_unmirrored(batch.form, batch.stiffness, lane, u, x);
+      rotate(R, false, 0, x, u);
+    }
     for (int n = 0; n < 8; ++n) scatter(u + 3 * n, lane, batch.y + 4 * kLanes * n);
   }
 }

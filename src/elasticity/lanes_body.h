@@ -11,9 +11,9 @@ constexpr int kRows = 12;
 static inline Vector load(const KERNEL_SCALAR* p) { return *reinterpret_cast<const Loose*>(p); }
 static inline void store(KERNEL_SCALAR* p, Vector v) { *reinterpret_cast<Loose*>(p) = v; }
 
-/// u = Rᵀ x (transposed) or R x.
-static inline void rotate(const Vector* R, bool transposed, const Vector* x, Vector* u) {
-  for (int n = 0; n < 8; ++n) {
+/// u = Rᵀ x (transposed) or R x for nodes from the first on.
+static inline void rotate(const Vector* R, bool transposed, int first, const Vector* x, Vector* u) {
+  for (int n = first; n < 8; ++n) {
     for (int i = 0; i < 3; ++i) {
       const Vector a = R[transposed ? i : 3 * i], b = R[transposed ? 3 + i : 3 * i + 1];
       const Vector c = R[transposed ? 6 + i : 3 * i + 2];
@@ -36,9 +36,8 @@ static inline void transform(Vector* v) {
   }
 }
 
-/// f = K u by MirroredMatrix: what is left of K are eight blocks.
-static inline void multiply_mirrored(const KERNEL_SCALAR* K, Vector* u, Vector* f) {
-  transform(u);
+/// f = K u by MirroredMatrix, of transformed nodes: what is left of K are eight blocks.
+static inline void multiply_blocks(const KERNEL_SCALAR* K, const Vector* u, Vector* f) {
 #pragma GCC unroll 8
   for (int p = 0; p < 8; ++p) {
     for (int i = 0; i < 3; ++i) {
@@ -46,7 +45,6 @@ static inline void multiply_mirrored(const KERNEL_SCALAR* K, Vector* u, Vector* 
       f[3 * (p ^ 1 << i) + i] = k[0] * u[3 * (p ^ 1)] + k[1] * u[3 * (p ^ 2) + 1] + k[2] * u[3 * (p ^ 4) + 2];
     }
   }
-  transform(f);
 }
 
 static inline void multiply_whole(const KERNEL_SCALAR* K, const Vector* u, Vector* f) {
@@ -80,11 +78,10 @@ static inline void multiply_triangles(const KERNEL_SCALAR* K, const Vector* u, V
   for (int i = 0; i < 24; ++i) f[i] = sum[i];
 }
 
-/// f = K u, of lanes from `lane` on of a batch. u is used up.
-static inline void multiply_lanes(MatrixForm form, const KERNEL_SCALAR* K, int lane, Vector* u, Vector* f) {
-  if (form == MatrixForm::kMirrored) {
-    multiply_mirrored(K, u, f);
-  } else if (form == MatrixForm::kWhole) {
+/// f = K u by a form that is not mirrored, of lanes from `lane` on of a batch.
+static inline void multiply_unmirrored(MatrixForm form, const KERNEL_SCALAR* K, int lane, const Vector* u,
+                                       Vector* f) {
+  if (form == MatrixForm::kWhole) {
     multiply_whole(K, u, f);
   } else {
     multiply_triangles(K + lane, u, f);
