@@ -40,12 +40,6 @@ Mat3 inverse_or_zero(const Mat3& block) {
   return block.inverse();
 }
 
-/// A node's block times a quad.
-template <typename Block, typename Vector>
-EIGEN_ALWAYS_INLINE Quad times(const Block& block, const Vector& v) {
-  return v[0] * block.col(0) + v[1] * block.col(1) + v[2] * block.col(2);
-}
-
 }  // namespace
 
 void LevelSystem::arrange(ElementSet elements, std::vector<char> held) {
@@ -114,11 +108,11 @@ void LevelSystem::invert_at_rest() {
 /// A node's block turns with the first element there. That is exact where rotations are alike; where they
 /// aren't, the V-cycle loses quality, and conjugate gradients notice if it is no longer positive.
 void LevelSystem::turn_inverses() {
-  inverse_.assign(held_.size(), NodeBlock::Zero());
+  inverse_.resize(held_.size());
   for_nodes([&](int begin, int end) {
     for (int n = begin; n < end; ++n) {
       const Eigen::Matrix3f R = product_.rotation_at(n).cast<float>();
-      inverse_[n].topRows<3>().noalias() = R * inverse_at_rest_[n] * R.transpose();
+      inverse_[n] = NodeBlock(R * inverse_at_rest_[n] * R.transpose());
     }
   });
 }
@@ -133,7 +127,7 @@ void LevelSystem::prepare_constraints() {
     const ConstraintRow& row = constraints_[i];
     for (int n = 0; n < 8; ++n) {
       const int node = nodes[row.element][n];
-      moved.col(node) += row.weights[n] * times(inverse_[node], row.direction);
+      moved.col(node) += row.weights[n] * (inverse_[node] * row.direction);
     }
     for (int j = 0; j < count; ++j) {
       const ConstraintRow& other = constraints_[j];
@@ -172,85 +166,48 @@ void LevelSystem::add_to_nodes(const ConstraintRow& row, float force, SingleFiel
 /// y += force M⁻¹ (w ⊗ d)
 void LevelSystem::add_scaled_to_nodes(const ConstraintRow& row, float force, SingleField& y) const {
   const ElementNodes& nodes = product_.elements().nodes[row.element];
-  for (int n = 0; n < 8; ++n) y.col(nodes[n]) += row.weights[n] * force * times(inverse_[nodes[n]], row.direction);
+  for (int n = 0; n < 8; ++n) y.col(nodes[n]) += row.weights[n] * force * (inverse_[nodes[n]] * row.direction);
 }
 
 /// z = factor M⁻¹ r with M the nodes' blocks and the constraints.
 void LevelSystem::scale(const SingleField& r, float factor, SingleField& z) const {
   z.resize(4, r.cols());
   for_nodes([&](int begin, int end) {
-    for (int n = begin; n < end; ++n) z.col(n) = factor * times(inverse_[n], r.col(n));
+    for (int n = begin; n < end; ++n) z.col(n) = factor * (inverse_[n] * Quad(r.col(n)));
   });
-  correct_for_constraints(r, factor, z);
+  correct_for_constraints(Eigen::VectorXf::Zero(constraints_.size()), z);
 }
 
-/// What constraints, which are stiff and few, change in factor M⁻¹ r (Woodbury's formula).
-void LevelSystem::correct_for_constraints(const SingleField& r, float factor, SingleField& z) const {
-  if (constraints_.empty() || factor == 0.0f) return;
+/// What constraints, which are stiff and few, change in z = z₀ + M⁻¹ r (Woodbury's formula).
+/// @param kept of each, its displacement by z₀
+void LevelSystem::correct_for_constraints(const Eigen::VectorXf& kept, SingleField& z) const {
+  if (constraints_.empty()) return;
   Eigen::VectorXf along(constraints_.size());
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const ConstraintRow& row = constraints_[i];
-    Quad at = Quad::Zero();
-    for (int n = 0; n < 8; ++n) {
-      const int node = product_.elements().nodes[row.element][n];
-      at += row.weights[n] * times(inverse_[node], r.col(node));
-    }
-    along[i] = factor * row.direction.dot(at.head<3>());
-  }
+  for (std::size_t i = 0; i < constraints_.size(); ++i) along[i] = displacement(constraints_[i], z) - kept[i];
   along = compliance_.solve(along).eval();
   for (std::size_t i = 0; i < constraints_.size(); ++i) add_scaled_to_nodes(constraints_[i], -along[i], z);
 }
 
-/// x = 0, r = b, step = add M⁻¹ r
-void LevelSystem::begin_from_zero(const SingleField& b, float add, SingleField& x, SingleField& r) const {
-  for (SingleField* field : {&x, &r, &step_}) field->resize(4, b.cols());
-  for_nodes([&](int begin, int end) {
-    for (int n = begin; n < end; ++n) {
-      x.col(n).setZero();
-      r.col(n) = b.col(n);
-      step_.col(n) = add * times(inverse_[n], b.col(n));
-    }
-  });
-  correct_for_constraints(r, add, step_);
-}
-
-/// r = b − A x, step = add M⁻¹ r
-void LevelSystem::begin(const SingleField& b, const SingleField& x, float add, SingleField& r) const {
-  r.resize(4, b.cols());
-  step_.resize(4, b.cols());
-  product_.apply(x, [b = quads_of(b), x = quads_of(x), r = quads_of(r), step = quads_of(step_),
-                     inverse = inverse_.data(), d = node_diagonal_.data(), s = stiffness_factor_,
+/// One sweep of Chebyshev's iteration for A x = b: `before` becomes x + keep (x − before) + add M⁻¹ (b − A x).
+void LevelSystem::sweep(float keep, float add, const SingleField& b, const SingleField& x,
+                        SingleField& before) const {
+  Eigen::VectorXf forces(constraints_.size()), kept(constraints_.size());
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const float at = displacement(constraints_[i], x);
+    forces[i] = constraints_[i].stiffness * at;
+    kept[i] = at + (keep != 0.0f ? keep * (at - displacement(constraints_[i], before)) : 0.0f);
+  }
+  before.resize(4, x.cols());
+  product_.apply(x, [b = quads_of(b), x = quads_of(x), next = quads_of(before), inverse = inverse_.data(),
+                     d = node_diagonal_.data(), s = stiffness_factor_, keep,
                      add](int n, const Quad& sum) CFEM_CUTTING_INLINE {
-    const Quad left = b[n] - (s * sum + d[n] * x[n]);
-    r[n] = left;
-    step[n] = add * times(inverse[n], left);
+    const Quad residual = b[n] - (s * sum + d[n] * x[n]);
+    const Quad start = keep != 0.0f ? Quad(x[n] + keep * (x[n] - next[n])) : x[n];
+    next[n] = start + add * (inverse[n] * residual);
   });
-  for (const ConstraintRow& row : constraints_) take(row, row.stiffness * displacement(row, x), add, r);
-  correct_for_constraints(r, add, step_);
-}
-
-/// One sweep of Chebyshev's iteration: x += step, r −= A step, step = keep step + add M⁻¹ r.
-void LevelSystem::advance(float keep, float add, SingleField& x, SingleField& r) const {
-  Eigen::VectorXf forces(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i)
-    forces[i] = constraints_[i].stiffness * displacement(constraints_[i], step_);
-  product_.apply(step_, [x = quads_of(x), r = quads_of(r), step = quads_of(step_), inverse = inverse_.data(),
-                         d = node_diagonal_.data(), s = stiffness_factor_, keep,
-                         add](int n, const Quad& sum) CFEM_CUTTING_INLINE {
-    const Quad taken = step[n];
-    const Quad left = r[n] - (s * sum + d[n] * taken);
-    x[n] += taken;
-    r[n] = left;
-    step[n] = keep * taken + add * times(inverse[n], left);
-  });
-  for (std::size_t i = 0; i < constraints_.size(); ++i) take(constraints_[i], forces[i], add, r);
-  correct_for_constraints(r, add, step_);
-}
-
-/// Takes a constraint's force out of r, and of step = … + add M⁻¹ r.
-void LevelSystem::take(const ConstraintRow& row, float force, float add, SingleField& r) const {
-  add_to_nodes(row, -force, r);
-  add_scaled_to_nodes(row, -add * force, step_);
+    add_scaled_to_nodes(constraints_[i], -add * forces[i], before);
+  correct_for_constraints(kept, before);
 }
 
 /// Chebyshev's iteration (Saad 2003, algorithm 12.1) for the eigenvalues to be smoothed.
@@ -258,36 +215,41 @@ struct LevelSystem::Chebyshev {
   explicit Chebyshev(double largest)
       : half_width(static_cast<float>(0.5 * largest * (1.0 - kSmoothedPart))),
         sigma(static_cast<float>((1.0 + kSmoothedPart) / (1.0 - kSmoothedPart))),
-        rho(1.0f / sigma) {}
-  float first() const { return 1.0f / (sigma * half_width); }
+        rho(1.0f / sigma),
+        add(1.0f / (sigma * half_width)) {}
   void next() {
     const float before = rho;
     rho = 1.0f / (2.0f * sigma - before);
     keep = rho * before;
     add = 2.0f * rho / half_width;
   }
-  float half_width, sigma, rho, keep = 0.0f, add = 0.0f;
+  float half_width, sigma, rho, keep = 0.0f, add;
 };
+
+/// Sweeps after the first one.
+void LevelSystem::sweep_on(Chebyshev& chebyshev, const SingleField& b, SingleField& x,
+                           SingleField& before) const {
+  for (int k = 1; k < kDegree; ++k) {
+    chebyshev.next();
+    sweep(chebyshev.keep, chebyshev.add, b, x, before);
+    x.swap(before);
+  }
+}
 
 void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const {
   Chebyshev chebyshev(largest_);
-  begin_from_zero(b, chebyshev.first(), x, r);
-  for (int k = 1; k < kDegree; ++k) {
-    chebyshev.next();
-    advance(chebyshev.keep, chebyshev.add, x, r);
-  }
-  advance(0.0f, 0.0f, x, r);
+  scale(b, chebyshev.add, x);
+  before_ = SingleField::Zero(4, b.cols());
+  sweep_on(chebyshev, b, x, before_);
+  apply(x, r);
+  r = b - r;
 }
 
 void LevelSystem::smooth(const SingleField& b, SingleField& x) const {
   Chebyshev chebyshev(largest_);
-  SingleField& r = residual_;
-  begin(b, x, chebyshev.first(), r);
-  for (int k = 1; k < kDegree; ++k) {
-    chebyshev.next();
-    advance(chebyshev.keep, chebyshev.add, x, r);
-  }
-  x += step_;
+  sweep(0.0f, chebyshev.add, b, x, before_);
+  x.swap(before_);
+  sweep_on(chebyshev, b, x, before_);
 }
 
 void LevelSystem::factorise() {

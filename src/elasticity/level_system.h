@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "element_product.h"
+#include "node_block.h"
 
 namespace cfem_cutting {
 
@@ -52,17 +53,13 @@ class LevelSystem {
   void solve(const SingleField& b, SingleField& x) const;
 
  private:
-  using NodeBlock = Eigen::Matrix<float, 4, 3>;  // 3 × 3 and a row of zeros, for four lanes
-
   template <typename Work>
   void for_nodes(const Work& work) const;
   struct Chebyshev;
-  void begin_from_zero(const SingleField& b, float add, SingleField& x, SingleField& r) const;
-  void begin(const SingleField& b, const SingleField& x, float add, SingleField& r) const;
-  void advance(float keep, float add, SingleField& x, SingleField& r) const;
-  void take(const ConstraintRow& row, float force, float add, SingleField& r) const;
+  void sweep(float keep, float add, const SingleField& b, const SingleField& x, SingleField& before) const;
+  void sweep_on(Chebyshev& chebyshev, const SingleField& b, SingleField& x, SingleField& before) const;
   void scale(const SingleField& r, float factor, SingleField& z) const;
-  void correct_for_constraints(const SingleField& r, float factor, SingleField& z) const;
+  void correct_for_constraints(const Eigen::VectorXf& kept, SingleField& z) const;
   float displacement(const ConstraintRow& row, const SingleField& p) const;
   void add_to_nodes(const ConstraintRow& row, float force, SingleField& y) const;
   void add_scaled_to_nodes(const ConstraintRow& row, float force, SingleField& y) const;
@@ -82,7 +79,7 @@ class LevelSystem {
   std::vector<NodeBlock> inverse_;                // m/N, turned
   Eigen::LDLT<Eigen::MatrixXf> compliance_;       // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
-  mutable SingleField step_, residual_;  // scratch
+  mutable SingleField before_;  // scratch
 };
 
 }  // namespace cfem_cutting
