@@ -37,9 +37,7 @@ Positions rest_frame_forces(const ElementMatrix& K, const Positions& displacemen
 /// Answers of all lanes.
 struct Corotation::Lanes {
   explicit Lanes(std::size_t batches)
-      : rotations(batches * 9 * kLanes),
-        energy(batches * kLanes),
-        inverted(batches, 0) {}
+      : rotations(batches * 9 * kLanes), energy(batches * kLanes), inverted(batches, 0) {}
   std::vector<double> rotations, energy;
   std::vector<int> inverted;  // per batch
 };
@@ -96,8 +94,8 @@ void Corotation::respond_batch(int b, const NodeField& x, double* forces, Lanes&
                            energy, regular});
   for (int lane = 0; lane < batch.count; ++lane)
     if (!regular[lane])
-      lanes.inverted[b] += respond_singly(tiles_.element_of_lane[batch.first + lane], x, forces + 4 * place_of_lane(lane),
-                                          rotations + lane, energy[lane]);
+      lanes.inverted[b] += respond_singly(tiles_.element_of_lane[batch.first + lane], x,
+                                          forces + 4 * place_of_lane(lane), rotations + lane, energy[lane]);
 }
 
 /// With y = Rᵀx, f = K(y − X): dE = f·Rᵀdx + f·dRᵀx, dR = R[ω]×, hence f·dRᵀx = −ω·t with t = Σ yₙ × fₙ.

@@ -28,7 +28,7 @@ class Corotation {
   Vec3 block_size_ = Vec3::Zero();
   Kinematics kinematics_ = Kinematics::kCorotational;
   ElementTiles tiles_;
-  std::vector<double> packed_gradient_;          // (|batches| × 24 × lanes)
+  std::vector<double> packed_gradient_;  // (|batches| × 24 × lanes)
   PackedStiffness<double> stiffness_;
 };
 

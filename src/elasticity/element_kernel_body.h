@@ -34,8 +34,8 @@ static inline void gather(const KERNEL_SCALAR* x, const int* nodes, Vector* valu
   const Vector ab = SHUFFLE(a, b, 0, kWidth, 1, kWidth + 1), cd = SHUFFLE(c, d, 0, kWidth, 1, kWidth + 1);
   values[0] = SHUFFLE(ab, cd, 0, 1, kWidth, kWidth + 1);
   values[1] = SHUFFLE(ab, cd, 2, 3, kWidth + 2, kWidth + 3);
-  values[2] = SHUFFLE(SHUFFLE(a, b, 2, kWidth + 2, 2, kWidth + 2), SHUFFLE(c, d, 2, kWidth + 2, 2, kWidth + 2),
-                      0, 1, kWidth, kWidth + 1);
+  values[2] = SHUFFLE(SHUFFLE(a, b, 2, kWidth + 2, 2, kWidth + 2),
+                      SHUFFLE(c, d, 2, kWidth + 2, 2, kWidth + 2), 0, 1, kWidth, kWidth + 1);
 }
 
 /// The inverse of gather, into places.

@@ -62,8 +62,12 @@ class ElementProduct {
   void pack_rotations(std::vector<Scalar>& packed) const;
   template <typename Scalar>
   ElementBatch<Scalar> batch(const Packed<Scalar>& packed, int b, const Scalar* p, Scalar* y) const {
-    return {packed.stiffness.form(b), packed.stiffness.of_batch(b),
-            packed.rotations.data() + static_cast<std::size_t>(b) * 9 * kLanes, tiles_.nodes_of(b), p, y};
+    return {packed.stiffness.form(b),
+            packed.stiffness.of_batch(b),
+            packed.rotations.data() + static_cast<std::size_t>(b) * 9 * kLanes,
+            tiles_.nodes_of(b),
+            p,
+            y};
   }
 
   ThreadPool* pool_;

@@ -10,10 +10,10 @@
 
 namespace cfem_cutting {
 
-/// Elements in tiles small enough for the cache, and a tile's elements in batches of SIMD lanes: those with one
-/// matrix together, then the others. What elements give their nodes is added up tile by tile, and at last for
-/// the nodes on borders between tiles; always in the same order. Borders are short if elements that are near
-/// each other in the set are near each other in space.
+/// Elements in tiles small enough for the cache, and a tile's elements in batches of SIMD lanes: those with
+/// one matrix together, then the others. What elements give their nodes is added up tile by tile, and at last
+/// for the nodes on borders between tiles; always in the same order. Borders are short if elements that are
+/// near each other in the set are near each other in space.
 class ElementTiles {
  public:
   struct Batch {
@@ -57,9 +57,8 @@ class ElementTiles {
                             [on_border](int entry, const auto& sum) { on_border[entry] = sum; });
       }
     });
-    pool.for_range(static_cast<int>(total_sums_.nodes.size()), kFewest, [&](int begin, int end) {
-      total_sums_.finish(on_border, begin, end, finish);
-    });
+    pool.for_range(static_cast<int>(total_sums_.nodes.size()), kFewest,
+                   [&](int begin, int end) { total_sums_.finish(on_border, begin, end, finish); });
   }
 
   static constexpr int kFewest = 2048;  ///< elements or nodes worth waking a thread for

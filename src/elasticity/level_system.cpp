@@ -14,10 +14,6 @@
 namespace cfem_cutting {
 namespace {
 
-/// The smoother damps the eigenvalues from a part of the largest one to that, by a Chebyshev polynomial of
-/// this degree.
-constexpr int kDegree = 3;
-constexpr double kSmoothedPart = 0.04;
 constexpr double kSafety = 1.1;
 constexpr int kPowerIterations = 10;
 
@@ -166,7 +162,8 @@ void LevelSystem::add_to_nodes(const ConstraintRow& row, float force, SingleFiel
 /// y += force M⁻¹ (w ⊗ d)
 void LevelSystem::add_scaled_to_nodes(const ConstraintRow& row, float force, SingleField& y) const {
   const ElementNodes& nodes = product_.elements().nodes[row.element];
-  for (int n = 0; n < 8; ++n) y.col(nodes[n]) += row.weights[n] * force * (inverse_[nodes[n]] * row.direction);
+  for (int n = 0; n < 8; ++n)
+    y.col(nodes[n]) += row.weights[n] * force * (inverse_[nodes[n]] * row.direction);
 }
 
 /// z = factor M⁻¹ r with M the nodes' blocks and the constraints.
@@ -188,7 +185,8 @@ void LevelSystem::correct_for_constraints(const Eigen::VectorXf& kept, SingleFie
   for (std::size_t i = 0; i < constraints_.size(); ++i) add_scaled_to_nodes(constraints_[i], -along[i], z);
 }
 
-/// One sweep of Chebyshev's iteration for A x = b: `before` becomes x + keep (x − before) + add M⁻¹ (b − A x).
+/// One sweep of Chebyshev's iteration for A x = b: `before` becomes x + keep (x − before) + add M⁻¹ (b − A
+/// x).
 void LevelSystem::sweep(float keep, float add, const SingleField& b, const SingleField& x,
                         SingleField& before) const {
   Eigen::VectorXf forces(constraints_.size()), kept(constraints_.size());
@@ -199,12 +197,12 @@ void LevelSystem::sweep(float keep, float add, const SingleField& b, const Singl
   }
   before.resize(4, x.cols());
   product_.apply(x, [b = quads_of(b), x = quads_of(x), next = quads_of(before), inverse = inverse_.data(),
-                     d = node_diagonal_.data(), s = stiffness_factor_, keep,
-                     add](int n, const Quad& sum) CFEM_CUTTING_INLINE {
-    const Quad residual = b[n] - (s * sum + d[n] * x[n]);
-    const Quad start = keep != 0.0f ? Quad(x[n] + keep * (x[n] - next[n])) : x[n];
-    next[n] = start + add * (inverse[n] * residual);
-  });
+                     d = node_diagonal_.data(), s = stiffness_factor_, keep, add](int n, const Quad& sum)
+                        CFEM_CUTTING_INLINE {
+                          const Quad residual = b[n] - (s * sum + d[n] * x[n]);
+                          const Quad start = keep != 0.0f ? Quad(x[n] + keep * (x[n] - next[n])) : x[n];
+                          next[n] = start + add * (inverse[n] * residual);
+                        });
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     add_scaled_to_nodes(constraints_[i], -add * forces[i], before);
   correct_for_constraints(kept, before);
@@ -212,9 +210,9 @@ void LevelSystem::sweep(float keep, float add, const SingleField& b, const Singl
 
 /// Chebyshev's iteration (Saad 2003, algorithm 12.1) for the eigenvalues to be smoothed.
 struct LevelSystem::Chebyshev {
-  explicit Chebyshev(double largest)
-      : half_width(static_cast<float>(0.5 * largest * (1.0 - kSmoothedPart))),
-        sigma(static_cast<float>((1.0 + kSmoothedPart) / (1.0 - kSmoothedPart))),
+  Chebyshev(double largest, double part)
+      : half_width(static_cast<float>(0.5 * largest * (1.0 - part))),
+        sigma(static_cast<float>((1.0 + part) / (1.0 - part))),
         rho(1.0f / sigma),
         add(1.0f / (sigma * half_width)) {}
   void next() {
@@ -229,7 +227,7 @@ struct LevelSystem::Chebyshev {
 /// Sweeps after the first one.
 void LevelSystem::sweep_on(Chebyshev& chebyshev, const SingleField& b, SingleField& x,
                            SingleField& before) const {
-  for (int k = 1; k < kDegree; ++k) {
+  for (int k = 1; k < smoothing_.degree; ++k) {
     chebyshev.next();
     sweep(chebyshev.keep, chebyshev.add, b, x, before);
     x.swap(before);
@@ -237,7 +235,7 @@ void LevelSystem::sweep_on(Chebyshev& chebyshev, const SingleField& b, SingleFie
 }
 
 void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const {
-  Chebyshev chebyshev(largest_);
+  Chebyshev chebyshev(largest_, smoothing_.part);
   scale(b, chebyshev.add, x);
   before_ = SingleField::Zero(4, b.cols());
   sweep_on(chebyshev, b, x, before_);
@@ -246,7 +244,7 @@ void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleF
 }
 
 void LevelSystem::smooth(const SingleField& b, SingleField& x) const {
-  Chebyshev chebyshev(largest_);
+  Chebyshev chebyshev(largest_, smoothing_.part);
   sweep(0.0f, chebyshev.add, b, x, before_);
   x.swap(before_);
   sweep_on(chebyshev, b, x, before_);

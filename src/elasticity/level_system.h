@@ -17,10 +17,17 @@ struct ConstraintRow {
   float stiffness;            ///< N/m
 };
 
+/// What the smoother does: a Chebyshev polynomial of this degree damps the eigenvalues from a part of the
+/// largest one to that.
+struct Smoothing {
+  int degree;
+  double part;
+};
+
 /// The system of one level in single precision, A = D + s Σ R K Rᵀ + Σ k (w ⊗ d)(w ⊗ d)ᵀ, with its smoother.
 class LevelSystem {
  public:
-  explicit LevelSystem(ThreadPool& pool) : product_(pool) {}
+  LevelSystem(ThreadPool& pool, Smoothing smoothing) : product_(pool), smoothing_(smoothing) {}
 
   /// Takes over a new mesh.
   /// @param held per node: zero displacement
@@ -69,6 +76,7 @@ class LevelSystem {
   double largest_eigenvalue() const;
 
   ElementProduct product_;
+  Smoothing smoothing_;
   std::vector<char> held_;
   std::vector<Mat3> diagonal_at_rest_;  // N/m
   double largest_ = 1.0;                // eigenvalue of (diag Σ K)⁻¹ Σ K

@@ -11,6 +11,9 @@ namespace {
 constexpr int kCoarsestNodes = 40;  // few enough to be factorised in every solve
 constexpr std::size_t kMostLevels = 12;
 
+/// Work on coarse levels costs little, and partly filled or cut elements need it there.
+constexpr Smoothing kFinestSmoothing{2, 0.06}, kCoarseSmoothing{4, 0.03};
+
 std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constraints) {
   std::vector<ConstraintRow> rows;
   for (const PointConstraint& c : constraints) {
@@ -64,7 +67,8 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
 }
 
 void Multigrid::add_level(ElementSet elements, std::vector<char> held) {
-  levels_.emplace_back(pool_).system.arrange(std::move(elements), std::move(held));
+  const Smoothing smoothing = levels_.empty() ? kFinestSmoothing : kCoarseSmoothing;
+  levels_.emplace_back(pool_, smoothing).system.arrange(std::move(elements), std::move(held));
 }
 
 void Multigrid::set(std::vector<Mat3> rotations, const SystemValues& values) {
@@ -116,8 +120,18 @@ void Multigrid::cycle(std::size_t l, const SingleField& b, SingleField& x) const
   level.system.smooth_from_zero(b, x, level.residual);
   level.restriction.apply(pool_, level.residual, level.coarse_load);
   cycle(l + 1, level.coarse_load, level.coarse_x);
+  if (l > 0 && l + 2 < levels_.size()) cycle_again(l + 1, level.coarse_load, level.coarse_x);
   level.interpolation.add(pool_, level.coarse_x, x);
   level.system.smooth(b, x);
+}
+
+/// x += one cycle for b − A x
+void Multigrid::cycle_again(std::size_t l, const SingleField& b, SingleField& x) const {
+  const Level& level = levels_[l];
+  level.system.apply(x, level.left);
+  level.left = b - level.left;
+  cycle(l, level.left, level.change);
+  x += level.change;
 }
 
 }  // namespace cfem_cutting

@@ -17,9 +17,10 @@ struct SystemValues {
   const std::vector<PointConstraint>* constraints = nullptr;
 };
 
-/// A symmetric V-cycle over the composite hierarchy (Dick, Georgii and Westermann 2011): a preconditioner for
-/// A = D + s Σ R K Rᵀ + Σ k (w ⊗ d)(w ⊗ d)ᵀ. Coarse elements have the rest matrices of what is in them
-/// (Galerkin) and the mean of its rotations; the coarsest level is solved directly.
+/// A symmetric cycle over the composite hierarchy: a V on the two finest levels, W below (Dick, Georgii and
+/// Westermann 2011): a preconditioner for A = D + s Σ R K Rᵀ + Σ k (w ⊗ d)(w ⊗ d)ᵀ. Coarse elements have the
+/// rest matrices of what is in them (Galerkin) and the mean of its rotations; the coarsest level is solved
+/// directly.
 class Multigrid {
  public:
   explicit Multigrid(ThreadPool& pool) : pool_(pool) {}
@@ -33,19 +34,21 @@ class Multigrid {
   ThreadPool& pool() const { return pool_; }
   const LevelSystem& finest() const { return levels_.front().system; }
 
-  /// z = one V-cycle for A z = r
+  /// z = one cycle for A z = r
   void precondition(const SingleField& r, SingleField& z) const { cycle(0, r, z); }
 
  private:
   struct Level {
-    explicit Level(ThreadPool& pool) : system(pool) {}
+    Level(ThreadPool& pool, Smoothing smoothing) : system(pool, smoothing) {}
     LevelSystem system;
     std::vector<int> parent;  // coarse element of each element
     Interpolation interpolation, restriction;
     mutable SingleField residual, coarse_load, coarse_x;
+    mutable SingleField left, change;  // of the second cycle
   };
   void add_level(ElementSet elements, std::vector<char> held);
   void cycle(std::size_t level, const SingleField& b, SingleField& x) const;
+  void cycle_again(std::size_t level, const SingleField& b, SingleField& x) const;
   std::vector<Mat3> coarse_rotations(const Level& fine, int count) const;
   std::vector<ConstraintRow> coarse_constraints(const Level& fine, const ElementSet& coarse) const;
 

@@ -26,7 +26,8 @@ class NodeBlock {
 
   EIGEN_ALWAYS_INLINE Eigen::Vector4f product(Lanes r) const {
     const Lanes a = diagonal_, b = others_;
-    const Lanes sum = a * r + __builtin_shufflevector(b, b, 2, 2, 1, 3) * __builtin_shufflevector(r, r, 1, 0, 0, 3) +
+    const Lanes sum = a * r +
+                      __builtin_shufflevector(b, b, 2, 2, 1, 3) * __builtin_shufflevector(r, r, 1, 0, 0, 3) +
                       __builtin_shufflevector(b, b, 1, 0, 0, 3) * __builtin_shufflevector(r, r, 2, 2, 1, 3);
     return {sum[0], sum[1], sum[2], sum[3]};
   }
