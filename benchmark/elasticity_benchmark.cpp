@@ -65,7 +65,7 @@ void product(benchmark::State& state) {
   const ElasticModel model = model_of(cube(static_cast<int>(state.range(0)), state.range(1)));
   ThreadPool pool(1);
   ElementProduct product(pool);
-  product.arrange(model.element_set());
+  product.arrange(model.elements());
   const SingleField x = to_quads(model.mesh().rest());
   SingleField y;
   for (auto _ : state) product.apply(x, y);

@@ -1,6 +1,7 @@
 #include "corotation.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "corotation_kernel.h"
 #include "rotation.h"
@@ -42,40 +43,46 @@ struct Corotation::Lanes {
   std::vector<int> inverted;  // per batch
 };
 
-Corotation::Corotation(ElementSet elements, std::vector<const MeanGradient*> gradients,
+Corotation::Corotation(ElementsPointer elements, std::vector<const MeanGradient*> gradients,
                        const Vec3& block_size, Kinematics kinematics)
     : elements_(std::move(elements)),
       gradient_(std::move(gradients)),
       block_size_(block_size),
       kinematics_(kinematics),
-      tiles_(elements_),
-      stiffness_(elements_, tiles_) {
-  packed_gradient_.assign(static_cast<std::size_t>(tiles_.size()) * 24 * kLanes, 0.0);
-  for (int b = 0; b < tiles_.size(); ++b) {
-    const ElementTiles::Batch& batch = tiles_.batches[b];
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const int e = tiles_.element_of_lane[batch.first + std::min(lane, batch.count - 1)];
-      for (int i = 0; i < 24; ++i)
-        packed_gradient_[static_cast<std::size_t>(b) * 24 * kLanes + i * kLanes + lane] =
-            gradient_[e]->data()[i];
-    }
+      stiffness_(*elements_) {
+  pack_gradients();
+}
+
+void Corotation::pack_gradients() {
+  const ElementTiles& tiles = elements_->tiles;
+  std::unordered_map<const double*, std::size_t> known;
+  for (int b = 0; b < tiles.size(); ++b) {
+    const ElementTiles::Batch& batch = tiles.batches[b];
+    const auto [place, added] = known.try_emplace(stiffness_.of_batch(b), packed_gradient_.size());
+    gradient_of_batch_.push_back(place->second);
+    if (!added) continue;
+    for (int i = 0; i < 24; ++i)
+      for (int lane = 0; lane < kLanes; ++lane)
+        packed_gradient_.push_back(
+            gradient_[tiles.element_of_lane[batch.first + std::min(lane, batch.count - 1)]]->data()[i]);
   }
 }
 
 ElasticResponse Corotation::respond(const NodeField& x, ThreadPool& pool) const {
-  Lanes lanes(tiles_.size());
+  const ElementTiles& tiles = elements_->tiles;
+  Lanes lanes(tiles.size());
   ElasticResponse response;
   response.forces.resize(3, x.cols());
-  tiles_.sum_up<double>(
+  tiles.sum_up<double>(
       pool, [&](int b, double* forces) { respond_batch(b, x, forces, lanes); },
       [&](int node, const Eigen::Vector4d& sum) { response.forces.col(node) = sum.head<3>(); });
-  response.rotations.resize(elements_.size());
-  for (int b = 0; b < tiles_.size(); ++b) {
-    const ElementTiles::Batch& batch = tiles_.batches[b];
+  response.rotations.resize(elements_->set.size());
+  for (int b = 0; b < tiles.size(); ++b) {
+    const ElementTiles::Batch& batch = tiles.batches[b];
     response.inverted += lanes.inverted[b];
     for (int lane = 0; lane < batch.count; ++lane) {
       response.energy += lanes.energy[b * kLanes + lane];
-      Mat3& R = response.rotations[tiles_.element_of_lane[batch.first + lane]];
+      Mat3& R = response.rotations[tiles.element_of_lane[batch.first + lane]];
       for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = lanes.rotations[(b * 9 + i) * kLanes + lane];
     }
   }
@@ -83,18 +90,19 @@ ElasticResponse Corotation::respond(const NodeField& x, ThreadPool& pool) const 
 }
 
 void Corotation::respond_batch(int b, const NodeField& x, double* forces, Lanes& lanes) const {
-  const ElementTiles::Batch& batch = tiles_.batches[b];
+  const ElementTiles& tiles = elements_->tiles;
+  const ElementTiles::Batch& batch = tiles.batches[b];
   const auto at = static_cast<std::size_t>(b);
   double* rotations = lanes.rotations.data() + at * 9 * kLanes;
   double* energy = lanes.energy.data() + at * kLanes;
   bool regular[kLanes] = {};
   if (kinematics_ == Kinematics::kCorotational)
-    cfem_cutting::respond({x.data(), tiles_.nodes_of(b), packed_gradient_.data() + at * 24 * kLanes,
+    cfem_cutting::respond({x.data(), tiles.nodes_of(b), packed_gradient_.data() + gradient_of_batch_[b],
                            block_size_.data(), stiffness_.form(b), stiffness_.of_batch(b), forces, rotations,
                            energy, regular});
   for (int lane = 0; lane < batch.count; ++lane)
     if (!regular[lane])
-      lanes.inverted[b] += respond_singly(tiles_.element_of_lane[batch.first + lane], x,
+      lanes.inverted[b] += respond_singly(tiles.element_of_lane[batch.first + lane], x,
                                           forces + 4 * place_of_lane(lane), rotations + lane, energy[lane]);
 }
 
@@ -104,7 +112,7 @@ void Corotation::respond_batch(int b, const NodeField& x, double* forces, Lanes&
 /// @return whether the element is flat or inverted
 bool Corotation::respond_singly(int element, const NodeField& x, double* force, double* rotation,
                                 double& energy) const {
-  const Positions local = local_positions(elements_.nodes[element], x);
+  const Positions local = local_positions(elements_->set.nodes[element], x);
   const MeanGradient& g = *gradient_[element];
   const bool turns = kinematics_ == Kinematics::kCorotational;
   const PolarRotation polar =
@@ -112,7 +120,7 @@ bool Corotation::respond_singly(int element, const NodeField& x, double* force, 
   const Mat3& R = polar.R;
   const Positions y = R.transpose() * local;
   const Positions u = y - rest_positions(block_size_);
-  Positions f = rest_frame_forces(*elements_.stiffness[element], u);
+  Positions f = rest_frame_forces(*elements_->set.stiffness[element], u);
   energy = 0.5 * u.cwiseProduct(f).sum();
   if (turns) {
     Vec3 torque = Vec3::Zero();

@@ -11,24 +11,25 @@ class Corotation {
  public:
   Corotation() = default;
   /// @param gradients of the elements, see ElementData; must outlive this
-  Corotation(ElementSet elements, std::vector<const MeanGradient*> gradients, const Vec3& block_size,
+  Corotation(ElementsPointer elements, std::vector<const MeanGradient*> gradients, const Vec3& block_size,
              Kinematics kinematics);
 
-  const ElementSet& elements() const { return elements_; }
+  const ElementsPointer& elements() const { return elements_; }
 
   ElasticResponse respond(const NodeField& x, ThreadPool& pool) const;
 
  private:
+  void pack_gradients();
   struct Lanes;
   void respond_batch(int batch, const NodeField& x, double* forces, Lanes& lanes) const;
   bool respond_singly(int element, const NodeField& x, double* force, double* rotation, double& energy) const;
 
-  ElementSet elements_;
+  ElementsPointer elements_;
   std::vector<const MeanGradient*> gradient_;
   Vec3 block_size_ = Vec3::Zero();
   Kinematics kinematics_ = Kinematics::kCorotational;
-  ElementTiles tiles_;
-  std::vector<double> packed_gradient_;  // (|batches| × 24 × lanes)
+  std::vector<double> packed_gradient_;         // (24 × lanes) each
+  std::vector<std::size_t> gradient_of_batch_;  // offsets; batches that share a matrix have one
   PackedStiffness<double> stiffness_;
 };
 

@@ -87,7 +87,7 @@ struct ElasticModel::Matrices {
   void arrange(const CompositeMesh& mesh, Kinematics kinematics) {
     std::vector<const MeanGradient*> gradients;
     for (const auto& data : of_element) gradients.push_back(&data->mean_gradient);
-    corotation = Corotation(element_set(mesh), std::move(gradients), mesh.block_size(), kinematics);
+    corotation = Corotation(std::make_shared<TiledElements>(element_set(mesh)), std::move(gradients), mesh.block_size(), kinematics);
   }
 
   int level;
@@ -147,6 +147,6 @@ const ElementMatrix& ElasticModel::stiffness(int element) const {
   return matrices_->of_element[element]->stiffness;
 }
 
-const ElementSet& ElasticModel::element_set() const { return matrices_->corotation.elements(); }
+const ElementsPointer& ElasticModel::elements() const { return matrices_->corotation.elements(); }
 
 }  // namespace cfem_cutting

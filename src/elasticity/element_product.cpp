@@ -11,11 +11,10 @@ SingleField to_quads(const NodeField& field) {
 
 NodeField from_quads(const SingleField& field) { return field.topRows<3>().cast<double>(); }
 
-void ElementProduct::arrange(ElementSet elements) {
+void ElementProduct::arrange(ElementsPointer elements) {
   elements_ = std::move(elements);
-  tiles_ = ElementTiles(elements_);
   single_.stiffness_fits = double_.stiffness_fits = false;
-  rotate(std::vector<Mat3>(elements_.size(), Mat3::Identity()));
+  rotate(std::vector<Mat3>(elements_->set.size(), Mat3::Identity()));
 }
 
 void ElementProduct::rotate(std::vector<Mat3> rotations) {
@@ -33,22 +32,23 @@ void ElementProduct::apply(const NodeField& p, NodeField& y) const {
   Eigen::Matrix4Xd quads = Eigen::Matrix4Xd::Zero(4, p.cols());
   quads.topRows<3>() = p;
   y.resize(3, p.cols());
-  tiles_.sum_up<double>(
+  elements_->tiles.sum_up<double>(
       *pool_, [&](int b, double* out) { multiply(batch(double_, b, quads.data(), out)); },
       [&](int node, const Eigen::Vector4d& sum) { y.col(node) = sum.head<3>(); });
 }
 
 std::vector<Mat3> ElementProduct::diagonal_at_rest() const {
-  std::vector<Mat3> blocks(elements_.node_count, Mat3::Zero());
-  for (int e = 0; e < elements_.size(); ++e)
+  const ElementSet& set = elements_->set;
+  std::vector<Mat3> blocks(set.node_count, Mat3::Zero());
+  for (int e = 0; e < set.size(); ++e)
     for (int n = 0; n < 8; ++n)
-      blocks[elements_.nodes[e][n]] += elements_.stiffness[e]->block<3, 3>(3 * n, 3 * n);
+      blocks[set.nodes[e][n]] += set.stiffness[e]->block<3, 3>(3 * n, 3 * n);
   return blocks;
 }
 
 template <typename Scalar>
 void ElementProduct::fit(Packed<Scalar>& packed) const {
-  if (!packed.stiffness_fits) packed.stiffness = PackedStiffness<Scalar>(elements_, tiles_);
+  if (!packed.stiffness_fits) packed.stiffness = PackedStiffness<Scalar>(*elements_);
   if (!packed.rotations_fit) pack_rotations(packed.rotations);
   packed.stiffness_fits = packed.rotations_fit = true;
 }
@@ -56,12 +56,13 @@ template void ElementProduct::fit(Packed<float>& packed) const;
 
 template <typename Scalar>
 void ElementProduct::pack_rotations(std::vector<Scalar>& packed) const {
-  packed.resize(static_cast<std::size_t>(tiles_.size()) * 9 * kLanes, Scalar{0});
-  tiles_.for_each(*pool_, [&](int b) {
-    const ElementTiles::Batch& batch = tiles_.batches[b];
+  const ElementTiles& tiles = elements_->tiles;
+  packed.resize(static_cast<std::size_t>(tiles.size()) * 9 * kLanes, Scalar{0});
+  tiles.for_each(*pool_, [&](int b) {
+    const ElementTiles::Batch& batch = tiles.batches[b];
     Scalar* out = packed.data() + static_cast<std::size_t>(b) * 9 * kLanes;
     for (int lane = 0; lane < batch.count; ++lane) {
-      const Mat3& R = rotations_[tiles_.element_of_lane[batch.first + lane]];
+      const Mat3& R = rotations_[tiles.element_of_lane[batch.first + lane]];
       for (int i = 0; i < 9; ++i) out[i * kLanes + lane] = static_cast<Scalar>(R(i / 3, i % 3));
     }
   });

@@ -21,12 +21,12 @@ class ElementProduct {
   explicit ElementProduct(ThreadPool& pool) : pool_(&pool) {}
 
   /// Takes over the elements. All rotations are the identity then.
-  void arrange(ElementSet elements);
+  void arrange(ElementsPointer elements);
 
   /// @param rotations of the elements
   void rotate(std::vector<Mat3> rotations);
 
-  const ElementSet& elements() const { return elements_; }
+  const ElementSet& elements() const { return elements_->set; }
   const std::vector<Mat3>& rotations() const { return rotations_; }
   ThreadPool& pool() const { return *pool_; }
 
@@ -34,7 +34,7 @@ class ElementProduct {
   template <typename Finish>
   void apply(const SingleField& p, const Finish& finish) const {
     fit(single_);
-    tiles_.sum_up<float>(
+    elements_->tiles.sum_up<float>(
         *pool_, [&](int b, float* y) { multiply(batch(single_, b, p.data(), y)); }, finish);
   }
 
@@ -46,7 +46,7 @@ class ElementProduct {
   std::vector<Mat3> diagonal_at_rest() const;
 
   /// The rotation of an element at each node: that of the first one there.
-  const Mat3& rotation_at(int node) const { return rotations_[tiles_.first_element[node]]; }
+  const Mat3& rotation_at(int node) const { return rotations_[elements_->tiles.first_element[node]]; }
 
  private:
   /// Arrays for the kernel in one precision.
@@ -65,15 +65,14 @@ class ElementProduct {
     return {packed.stiffness.form(b),
             packed.stiffness.of_batch(b),
             packed.rotations.data() + static_cast<std::size_t>(b) * 9 * kLanes,
-            tiles_.nodes_of(b),
+            elements_->tiles.nodes_of(b),
             p,
             y};
   }
 
   ThreadPool* pool_;
-  ElementSet elements_;
+  ElementsPointer elements_;
   std::vector<Mat3> rotations_;
-  ElementTiles tiles_;
   mutable Packed<float> single_;
   mutable Packed<double> double_;
 };

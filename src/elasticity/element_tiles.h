@@ -125,4 +125,12 @@ class ElementTiles {
   Sums<int> total_sums_;                          // of border_sums_, in order
 };
 
+/// Elements and their tiles, which several users of a mesh share.
+struct TiledElements {
+  explicit TiledElements(ElementSet elements) : set(std::move(elements)), tiles(set) {}
+  const ElementSet set;
+  const ElementTiles tiles;
+};
+using ElementsPointer = std::shared_ptr<const TiledElements>;
+
 }  // namespace cfem_cutting

@@ -39,9 +39,9 @@ Mat3 inverse_or_zero(const Mat3& block) {
 
 }  // namespace
 
-void LevelSystem::arrange(ElementSet elements, std::vector<char> held) {
+void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
   held_ = std::move(held);
-  node_diagonal_ = Eigen::VectorXf::Zero(elements.node_count);
+  node_diagonal_ = Eigen::VectorXf::Zero(elements->set.node_count);
   stiffness_factor_ = 1.0f;
   constraints_.clear();
   product_.arrange(std::move(elements));

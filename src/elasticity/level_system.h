@@ -31,7 +31,7 @@ class LevelSystem {
 
   /// Takes over a new mesh.
   /// @param held per node: zero displacement
-  void arrange(ElementSet elements, std::vector<char> held);
+  void arrange(ElementsPointer elements, std::vector<char> held);
 
   /// Takes over what changes from solve to solve.
   /// @param node_diagonal N/m, per node

@@ -46,7 +46,7 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
   std::vector<char> flags(model.mesh().node_count(), 0);
   for (int node : held) flags[node] = 1;
   levels_.clear();
-  add_level(model.element_set(), std::move(flags));
+  add_level(model.elements(), std::move(flags));
   while (levels_.size() < kMostLevels &&
          levels_.back().system.product().elements().node_count > kCoarsestNodes) {
     Level& fine = levels_.back();
@@ -60,13 +60,13 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
     fine.interpolation = without_held(coarsening.interpolation, fine.system.held());
     fine.restriction = fine.interpolation.transposed(coarsening.coarse.node_count);
     std::vector<char> none(coarsening.coarse.node_count, 0);
-    add_level(std::move(coarsening.coarse), std::move(none));
+    add_level(std::make_shared<TiledElements>(std::move(coarsening.coarse)), std::move(none));
   }
   version_ = model.version();
   held_ = held;
 }
 
-void Multigrid::add_level(ElementSet elements, std::vector<char> held) {
+void Multigrid::add_level(ElementsPointer elements, std::vector<char> held) {
   const Smoothing smoothing = levels_.empty() ? kFinestSmoothing : kCoarseSmoothing;
   levels_.emplace_back(pool_, smoothing).system.arrange(std::move(elements), std::move(held));
 }

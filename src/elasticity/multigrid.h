@@ -46,7 +46,7 @@ class Multigrid {
     mutable SingleField residual, coarse_load, coarse_x;
     mutable SingleField left, change;  // of the second cycle
   };
-  void add_level(ElementSet elements, std::vector<char> held);
+  void add_level(ElementsPointer elements, std::vector<char> held);
   void cycle(std::size_t level, const SingleField& b, SingleField& x) const;
   void cycle_again(std::size_t level, const SingleField& b, SingleField& x) const;
   std::vector<Mat3> coarse_rotations(const Level& fine, int count) const;

@@ -7,11 +7,12 @@
 namespace cfem_cutting {
 
 template <typename Scalar>
-PackedStiffness<Scalar>::PackedStiffness(const ElementSet& elements, const ElementTiles& tiles) {
+PackedStiffness<Scalar>::PackedStiffness(const TiledElements& elements) {
+  const ElementTiles& tiles = elements.tiles;
   std::unordered_map<const ElementMatrix*, int> batch_of_matrix;
   for (int b = 0; b < tiles.size(); ++b) {
     const ElementTiles::Batch& batch = tiles.batches[b];
-    const ElementMatrix& K = *elements.stiffness[tiles.element_of_lane[batch.first]];
+    const ElementMatrix& K = *elements.set.stiffness[tiles.element_of_lane[batch.first]];
     const auto [known, added] = batch_of_matrix.try_emplace(batch.shared ? &K : nullptr, b);
     if (batch.shared && !added) {
       first_.push_back(first_[known->second]);
@@ -22,7 +23,7 @@ PackedStiffness<Scalar>::PackedStiffness(const ElementSet& elements, const Eleme
     if (batch.shared) {
       add_whole(K);
     } else {
-      add_triangles(elements, tiles, batch);
+      add_triangles(elements, batch);
     }
   }
 }
@@ -38,8 +39,7 @@ void PackedStiffness<Scalar>::add_whole(const ElementMatrix& K) {
 }
 
 template <typename Scalar>
-void PackedStiffness<Scalar>::add_triangles(const ElementSet& elements, const ElementTiles& tiles,
-                                            const ElementTiles::Batch& batch) {
+void PackedStiffness<Scalar>::add_triangles(const TiledElements& elements, const ElementTiles::Batch& batch) {
   form_.push_back(MatrixForm::kTriangles);
   entries_.resize(entries_.size() + kTriangle * kLanes, Scalar{0});
   Scalar* entry = entries_.data() + first_.back();
@@ -47,7 +47,7 @@ void PackedStiffness<Scalar>::add_triangles(const ElementSet& elements, const El
     for (int i = j; i < 24; ++i, entry += kLanes)
       for (int lane = 0; lane < batch.count; ++lane)
         entry[lane] =
-            static_cast<Scalar>((*elements.stiffness[tiles.element_of_lane[batch.first + lane]])(i, j));
+            static_cast<Scalar>((*elements.set.stiffness[elements.tiles.element_of_lane[batch.first + lane]])(i, j));
 }
 
 template class PackedStiffness<float>;

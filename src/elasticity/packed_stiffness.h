@@ -9,14 +9,14 @@ template <typename Scalar>
 class PackedStiffness {
  public:
   PackedStiffness() = default;
-  PackedStiffness(const ElementSet& elements, const ElementTiles& tiles);
+  explicit PackedStiffness(const TiledElements& elements);
 
   MatrixForm form(int batch) const { return form_[batch]; }
   const Scalar* of_batch(int batch) const { return entries_.data() + first_[batch]; }
 
  private:
   void add_whole(const ElementMatrix& K);
-  void add_triangles(const ElementSet& elements, const ElementTiles& tiles, const ElementTiles::Batch& batch);
+  void add_triangles(const TiledElements& elements, const ElementTiles::Batch& batch);
 
   std::vector<Scalar> entries_;
   std::vector<std::size_t> first_;  // per batch; matrices that several batches share are there once

@@ -93,8 +93,8 @@ TEST_F(Cycle, TakesMostOfAnyErrorAway) {
 }
 
 TEST_F(Cycle, InterpolationKeepsRigidTranslations) {
-  const Coarsening coarsening(model.element_set());
-  EXPECT_LT(coarsening.coarse.size(), model.element_set().size() / 3);
+  const Coarsening coarsening(model.elements()->set);
+  EXPECT_LT(coarsening.coarse.size(), model.elements()->set.size() / 3);
   const SingleField ones = SingleField::Ones(4, coarsening.coarse.node_count);
   SingleField fine;
   coarsening.interpolation.apply(pool, ones, fine);

@@ -14,7 +14,7 @@ enum class Kinematics { kCorotational, kLinear };
 
 using ElementMatrix = Eigen::Matrix<double, 24, 24>;  ///< N/m; row 3n + axis
 
-struct ElementSet;
+struct TiledElements;
 class ThreadPool;
 
 /// What elements answer at node positions x. Per element E = ½ uᵀ K u with u = Rᵀx − X.
@@ -53,7 +53,7 @@ class ElasticModel {
   const ElementMatrix& stiffness(int element) const;
 
   /// Elements with their nodes and matrices, for solvers.
-  const ElementSet& element_set() const;
+  const std::shared_ptr<const TiledElements>& elements() const;
 
   /// Differs between any two states of any models in this process: changes with each update.
   std::uint64_t version() const { return version_; }
