@@ -140,7 +140,7 @@ void Interpolation::apply(ThreadPool& pool, const Eigen::Matrix4Xf& x, Eigen::Ma
 }
 
 void Interpolation::add(ThreadPool& pool, const Eigen::Matrix4Xf& x, Eigen::Matrix4Xf& y) const {
-  constexpr int kFewest = 4096;  // rows worth waking a thread for
+  constexpr int kFewest = 512;  // rows worth waking a thread for
   pool.for_range(rows(), kFewest, [&](int begin, int end) {
     for (int row = begin; row < end; ++row) {
       Eigen::Vector4f sum = y.col(row);

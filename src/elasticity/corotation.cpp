@@ -35,12 +35,10 @@ Positions rest_frame_forces(const ElementMatrix& K, const Positions& displacemen
 
 }  // namespace
 
-/// Answers of all lanes.
-struct Corotation::Lanes {
-  explicit Lanes(std::size_t batches)
-      : rotations(batches * 9 * kLanes), energy(batches * kLanes), inverted(batches, 0) {}
-  std::vector<double> rotations, energy;
-  std::vector<int> inverted;  // per batch
+/// Sums over the elements of a batch.
+struct Corotation::Totals {
+  double energy = 0.0;
+  int inverted = 0;
 };
 
 Corotation::Corotation(ElementsPointer elements, std::vector<const MeanGradient*> gradients,
@@ -70,40 +68,40 @@ void Corotation::pack_gradients() {
 
 ElasticResponse Corotation::respond(const NodeField& x, ThreadPool& pool) const {
   const ElementTiles& tiles = elements_->tiles;
-  Lanes lanes(tiles.size());
   ElasticResponse response;
   response.forces.resize(3, x.cols());
-  tiles.sum_up<double>(
-      pool, [&](int b, double* forces) { respond_batch(b, x, forces, lanes); },
-      [&](int node, const Eigen::Vector4d& sum) { response.forces.col(node) = sum.head<3>(); });
   response.rotations.resize(elements_->set.size());
-  for (int b = 0; b < tiles.size(); ++b) {
-    const ElementTiles::Batch& batch = tiles.batches[b];
-    response.inverted += lanes.inverted[b];
-    for (int lane = 0; lane < batch.count; ++lane) {
-      response.energy += lanes.energy[b * kLanes + lane];
-      Mat3& R = response.rotations[tiles.element_of_lane[batch.first + lane]];
-      for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = lanes.rotations[(b * 9 + i) * kLanes + lane];
-    }
+  std::vector<Totals> totals(tiles.size());
+  tiles.sum_up<double>(
+      pool, [&](int b, double* forces) { totals[b] = respond_batch(b, x, forces, response.rotations); },
+      [&](int node, const Eigen::Vector4d& sum) { response.forces.col(node) = sum.head<3>(); });
+  for (const Totals& of_batch : totals) {
+    response.energy += of_batch.energy;
+    response.inverted += of_batch.inverted;
   }
   return response;
 }
 
-void Corotation::respond_batch(int b, const NodeField& x, double* forces, Lanes& lanes) const {
+Corotation::Totals Corotation::respond_batch(int b, const NodeField& x, double* forces,
+                                             std::vector<Mat3>& rotation_of_element) const {
   const ElementTiles& tiles = elements_->tiles;
   const ElementTiles::Batch& batch = tiles.batches[b];
-  const auto at = static_cast<std::size_t>(b);
-  double* rotations = lanes.rotations.data() + at * 9 * kLanes;
-  double* energy = lanes.energy.data() + at * kLanes;
+  double rotations[9 * kLanes], energy[kLanes];
   bool regular[kLanes] = {};
   if (kinematics_ == Kinematics::kCorotational)
     cfem_cutting::respond({x.data(), tiles.nodes_of(b), packed_gradient_.data() + gradient_of_batch_[b],
                            block_size_.data(), stiffness_.form(b), stiffness_.of_batch(b), forces, rotations,
                            energy, regular});
-  for (int lane = 0; lane < batch.count; ++lane)
+  Totals totals;
+  for (int lane = 0; lane < batch.count; ++lane) {
+    const int e = tiles.element_of_lane[batch.first + lane];
     if (!regular[lane])
-      lanes.inverted[b] += respond_singly(tiles.element_of_lane[batch.first + lane], x,
-                                          forces + 4 * place_of_lane(lane), rotations + lane, energy[lane]);
+      totals.inverted +=
+          respond_singly(e, x, forces + 4 * place_of_lane(lane), rotations + lane, energy[lane]);
+    totals.energy += energy[lane];
+    for (int i = 0; i < 9; ++i) rotation_of_element[e](i / 3, i % 3) = rotations[i * kLanes + lane];
+  }
+  return totals;
 }
 
 /// With y = Rᵀx, f = K(y − X): dE = f·Rᵀdx + f·dRᵀx, dR = R[ω]×, hence f·dRᵀx = −ω·t with t = Σ yₙ × fₙ.

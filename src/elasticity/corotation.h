@@ -20,8 +20,9 @@ class Corotation {
 
  private:
   void pack_gradients();
-  struct Lanes;
-  void respond_batch(int batch, const NodeField& x, double* forces, Lanes& lanes) const;
+  struct Totals;
+  Totals respond_batch(int batch, const NodeField& x, double* forces,
+                       std::vector<Mat3>& rotation_of_element) const;
   bool respond_singly(int element, const NodeField& x, double* force, double* rotation, double& energy) const;
 
   ElementsPointer elements_;

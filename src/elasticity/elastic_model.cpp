@@ -87,7 +87,8 @@ struct ElasticModel::Matrices {
   void arrange(const CompositeMesh& mesh, Kinematics kinematics) {
     std::vector<const MeanGradient*> gradients;
     for (const auto& data : of_element) gradients.push_back(&data->mean_gradient);
-    corotation = Corotation(std::make_shared<TiledElements>(element_set(mesh)), std::move(gradients), mesh.block_size(), kinematics);
+    corotation = Corotation(std::make_shared<TiledElements>(element_set(mesh)), std::move(gradients),
+                            mesh.block_size(), kinematics);
   }
 
   int level;

@@ -41,8 +41,7 @@ std::vector<Mat3> ElementProduct::diagonal_at_rest() const {
   const ElementSet& set = elements_->set;
   std::vector<Mat3> blocks(set.node_count, Mat3::Zero());
   for (int e = 0; e < set.size(); ++e)
-    for (int n = 0; n < 8; ++n)
-      blocks[set.nodes[e][n]] += set.stiffness[e]->block<3, 3>(3 * n, 3 * n);
+    for (int n = 0; n < 8; ++n) blocks[set.nodes[e][n]] += set.stiffness[e]->block<3, 3>(3 * n, 3 * n);
   return blocks;
 }
 

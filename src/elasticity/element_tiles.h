@@ -61,7 +61,7 @@ class ElementTiles {
                    [&](int begin, int end) { total_sums_.finish(on_border, begin, end, finish); });
   }
 
-  static constexpr int kFewest = 2048;  ///< elements or nodes worth waking a thread for
+  static constexpr int kFewest = 1024;  ///< elements or nodes worth waking a thread for
 
   std::vector<Batch> batches;
   std::vector<int> element_of_lane;  ///< batch by batch
@@ -69,7 +69,7 @@ class ElementTiles {
   std::vector<int> first_element;    ///< per node: the first element there
 
  private:
-  static constexpr int kTile = 1024;            // elements
+  static constexpr int kTile = 512;             // elements
   static constexpr int kEntries = 32 * kLanes;  // of a batch
 
   template <typename Scalar>

@@ -166,6 +166,14 @@ void LevelSystem::apply(const SingleField& p, SingleField& y) const {
     add_to_nodes(constraints_[i], constraints_[i].stiffness * displacement(constraints_[i], p), y);
 }
 
+void LevelSystem::residual(const SingleField& b, const SingleField& x, SingleField& r) const {
+  r.resize(4, x.cols());
+  product_.apply(x, [b = quads_of(b), x = quads_of(x), r = quads_of(r), d = node_diagonal_.data(),
+                     s = stiffness_factor_](int n, const Quad& sum)
+                        CFEM_CUTTING_INLINE { r[n] = b[n] - (s * sum + d[n] * x[n]); });
+  for (const ConstraintRow& row : constraints_) add_to_nodes(row, -row.stiffness * displacement(row, x), r);
+}
+
 /// dᵀ (w · p)
 float LevelSystem::displacement(const ConstraintRow& row, const SingleField& p) const {
   const ElementNodes& nodes = product_.elements().nodes[row.element];
@@ -260,8 +268,7 @@ void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleF
   scale(b, chebyshev.add, x);
   before_ = SingleField::Zero(4, b.cols());
   sweep_on(chebyshev, b, x, before_);
-  apply(x, r);
-  r = b - r;
+  residual(b, x, r);
 }
 
 void LevelSystem::smooth(const SingleField& b, SingleField& x) const {

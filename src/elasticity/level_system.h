@@ -48,6 +48,9 @@ class LevelSystem {
   /// y = A p; rows of held nodes are without meaning.
   void apply(const SingleField& p, SingleField& y) const;
 
+  /// r = b − A x; rows of held nodes are without meaning.
+  void residual(const SingleField& b, const SingleField& x, SingleField& r) const;
+
   /// x from zero towards A⁻¹ b, and r = b − A x.
   void smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const;
 

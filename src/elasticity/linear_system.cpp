@@ -14,6 +14,8 @@ constexpr double kRounding = 1e-15;
 /// Conjugate gradients in single precision reduce a residual by no more than this at once.
 constexpr double kMostReduction = 1e-5;
 
+constexpr int kFewest = 2048;  // nodes worth waking a thread for
+
 /// b − A dx on the free nodes.
 NodeField residual(const LinearSystem& system, const NodeField& b, const NodeField& dx) {
   NodeField r;
@@ -39,7 +41,7 @@ template <typename Term>
 double sum_over_nodes(ThreadPool& pool, int count, const Term& term) {
   constexpr int kPart = 1024;
   std::vector<double> sums(count / kPart + 1, 0.0);
-  pool.for_range(static_cast<int>(sums.size()), 4, [&](int begin, int end) {
+  pool.for_range(static_cast<int>(sums.size()), 2, [&](int begin, int end) {
     for (int part = begin; part < end; ++part)
       for (int n = part * kPart; n < std::min(count, (part + 1) * kPart); ++n) sums[part] += term(n);
   });
@@ -64,7 +66,10 @@ int conjugate_gradients(const LinearSystem& system, SingleField& r, SingleField&
     if (!(next_rz > 0.0)) break;
     const auto keep = static_cast<float>(iteration > 0 ? next_rz / rz : 0.0);
     rz = next_rz;
-    p = z + keep * p;
+    multigrid.pool().for_range(count, kFewest, [&](int begin, int end) {
+      p.middleCols(begin, end - begin) =
+          z.middleCols(begin, end - begin) + keep * p.middleCols(begin, end - begin);
+    });
     multigrid.finest().apply(p, Ap);
     system.clear_held(Ap);
     const double curvature = sum([&](int n) { return p.col(n).dot(Ap.col(n)); });

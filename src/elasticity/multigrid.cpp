@@ -128,8 +128,7 @@ void Multigrid::cycle(std::size_t l, const SingleField& b, SingleField& x) const
 /// x += one cycle for b − A x
 void Multigrid::cycle_again(std::size_t l, const SingleField& b, SingleField& x) const {
   const Level& level = levels_[l];
-  level.system.apply(x, level.left);
-  level.left = b - level.left;
+  level.system.residual(b, x, level.left);
   cycle(l, level.left, level.change);
   x += level.change;
 }

@@ -46,8 +46,8 @@ void PackedStiffness<Scalar>::add_triangles(const TiledElements& elements, const
   for (int j = 0; j < 24; ++j)
     for (int i = j; i < 24; ++i, entry += kLanes)
       for (int lane = 0; lane < batch.count; ++lane)
-        entry[lane] =
-            static_cast<Scalar>((*elements.set.stiffness[elements.tiles.element_of_lane[batch.first + lane]])(i, j));
+        entry[lane] = static_cast<Scalar>(
+            (*elements.set.stiffness[elements.tiles.element_of_lane[batch.first + lane]])(i, j));
 }
 
 template class PackedStiffness<float>;

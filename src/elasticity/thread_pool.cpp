@@ -11,9 +11,9 @@ namespace cfem_cutting {
 
 namespace {
 
-/// Turns of waiting awake, some tens of microseconds: the parts of a solve follow each other faster than a
-/// thread falls asleep.
-constexpr int kSpins = 1000;
+/// Turns of waiting awake, some hundreds of microseconds: coarse levels, which are for one thread, take less
+/// than that, and a thread that fell asleep is late.
+constexpr int kSpins = 10000;
 
 void pause() {
 #if defined(__x86_64__)
