@@ -37,21 +37,25 @@ namespace {
 #pragma GCC pop_options
 #endif
 
-using Kernel = void (*)(const CorotationBatch&);
-
-Kernel choose_kernel() {
+/// Widest first.
+std::vector<CorotationKernel> find_kernels() {
+  std::vector<CorotationKernel> kernels;
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx512f")) return avx512::respond;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return avx2::respond;
+  if (__builtin_cpu_supports("avx512f")) kernels.push_back({"AVX-512", avx512::respond});
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    kernels.push_back({"AVX2", avx2::respond});
 #endif
-  return baseline::respond;
+  kernels.push_back({"baseline", baseline::respond});
+  return kernels;
 }
 
 }  // namespace
 
-void respond(const CorotationBatch& batch) {
-  static const Kernel chosen = choose_kernel();
-  chosen(batch);
+const std::vector<CorotationKernel>& corotation_kernels() {
+  static const std::vector<CorotationKernel> found = find_kernels();
+  return found;
 }
+
+void respond(const CorotationBatch& batch) { corotation_kernels().front().respond(batch); }
 
 }  // namespace cfem_cutting

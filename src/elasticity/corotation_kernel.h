@@ -20,6 +20,15 @@ struct CorotationBatch {
   bool* regular;            ///< (16): false where the element is flat, inverted or nearly so: no answer
 };
 
+/// Answers for one instruction set.
+struct CorotationKernel {
+  const char* name;
+  void (*respond)(const CorotationBatch&);
+};
+
+/// Those that this processor can run, the widest first.
+const std::vector<CorotationKernel>& corotation_kernels();
+
 /// Answers with the widest instructions that this processor has. Rotations come by Newton's iteration (Higham
 /// 1986), forces are the true gradient of the energy.
 void respond(const CorotationBatch& batch);

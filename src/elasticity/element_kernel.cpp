@@ -69,31 +69,27 @@ namespace {
 #undef KERNEL_BYTES
 #endif
 
-struct Kernels {
-  void (*single)(const ElementBatch<float>&) = baseline_float::multiply;
-  void (*precise)(const ElementBatch<double>&) = baseline_double::multiply;
-};
-
-Kernels choose_kernels() {
-  Kernels kernels;
+/// Widest first.
+std::vector<ElementKernel> find_kernels() {
+  std::vector<ElementKernel> kernels;
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx512f")) {
-    kernels = {avx512_float::multiply, avx512_double::multiply};
-  } else if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-    kernels = {avx2_float::multiply, avx2_double::multiply};
-  }
+  if (__builtin_cpu_supports("avx512f"))
+    kernels.push_back({"AVX-512", avx512_float::multiply, avx512_double::multiply});
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    kernels.push_back({"AVX2", avx2_float::multiply, avx2_double::multiply});
 #endif
+  kernels.push_back({"baseline", baseline_float::multiply, baseline_double::multiply});
   return kernels;
-}
-
-const Kernels& kernels() {
-  static const Kernels chosen = choose_kernels();
-  return chosen;
 }
 
 }  // namespace
 
-void multiply(const ElementBatch<float>& batch) { kernels().single(batch); }
-void multiply(const ElementBatch<double>& batch) { kernels().precise(batch); }
+const std::vector<ElementKernel>& element_kernels() {
+  static const std::vector<ElementKernel> found = find_kernels();
+  return found;
+}
+
+void multiply(const ElementBatch<float>& batch) { element_kernels().front().single(batch); }
+void multiply(const ElementBatch<double>& batch) { element_kernels().front().precise(batch); }
 
 }  // namespace cfem_cutting

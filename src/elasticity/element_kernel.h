@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 namespace cfem_cutting {
 
 /// Elements in one batch, one a SIMD lane.
@@ -28,6 +30,16 @@ struct ElementBatch {
   const Scalar* x;         ///< (4 × |nodes|), node by node
   Scalar* y;               ///< (8 × 16 × 4): node n of lane l at [4 (16 n + place_of_lane(l))]
 };
+
+/// Multiplication for one instruction set.
+struct ElementKernel {
+  const char* name;
+  void (*single)(const ElementBatch<float>&);
+  void (*precise)(const ElementBatch<double>&);
+};
+
+/// Those that this processor can run, the widest first.
+const std::vector<ElementKernel>& element_kernels();
 
 /// Multiplies a batch with the widest instructions that this processor has.
 void multiply(const ElementBatch<float>& batch);

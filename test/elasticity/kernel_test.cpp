@@ -1,0 +1,145 @@
+// Kernels of every instruction set that this processor can run, against plain matrices.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "corotation_kernel.h"
+#include "element_set.h"
+#include "mirrored_matrix.h"
+
+namespace cfem_cutting {
+namespace {
+
+constexpr int kNodes = 50;
+
+/// A stiffness-like matrix; `mirrored`: one that reflections of the block leave alone.
+ElementMatrix make_matrix(bool is_mirrored) {
+  ElementMatrix K = ElementMatrix::Random();
+  K = (K * K.transpose()).eval();
+  if (!is_mirrored) return K;
+  for (int axis = 0; axis < 3; ++axis) {
+    ElementMatrix reflection = ElementMatrix::Zero();
+    for (int n = 0; n < 8; ++n)
+      for (int i = 0; i < 3; ++i) reflection(3 * (n ^ 1 << axis) + i, 3 * n + i) = i == axis ? -1.0 : 1.0;
+    K = (0.5 * (K + reflection * K * reflection.transpose())).eval();
+  }
+  const ElementMatrix translations = Eigen::Matrix3d::Identity().replicate(8, 8) / 8.0;
+  const ElementMatrix left = ElementMatrix::Identity() - translations;
+  return left * K * left;
+}
+
+template <typename Scalar>
+struct Specimen {
+  explicit Specimen(MatrixForm matrix_form) : form(matrix_form) {
+    std::srand(7);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      matrices.push_back(lane > 0 && form != MatrixForm::kTriangles
+                             ? matrices.front()
+                             : make_matrix(form == MatrixForm::kMirrored));
+      rotations.push_back(Eigen::Quaterniond::UnitRandom().toRotationMatrix());
+      for (int n = 0; n < 8; ++n) nodes[n * kLanes + lane] = (11 * n + 3 * lane) % kNodes;
+      for (int i = 0; i < 9; ++i)
+        rotation[i * kLanes + lane] = static_cast<Scalar>(rotations.back()(i / 3, i % 3));
+    }
+    x.setRandom();
+    x.row(3).setZero();
+    pack();
+  }
+
+  void pack() {
+    if (form == MatrixForm::kMirrored) {
+      const MirroredMatrix blocks = mirrored(matrices.front()).value();
+      for (int i = 0; i < blocks.size(); ++i) stiffness.push_back(static_cast<Scalar>(blocks.data()[i]));
+    } else if (form == MatrixForm::kWhole) {
+      for (int i = 0; i < 576; ++i) stiffness.push_back(static_cast<Scalar>(matrices.front().data()[i]));
+    } else {
+      for (int j = 0; j < 24; ++j)
+        for (int i = j; i < 24; ++i)
+          for (const ElementMatrix& K : matrices) stiffness.push_back(static_cast<Scalar>(K(i, j)));
+    }
+  }
+
+  Eigen::Matrix<double, 24, 1> expected(int lane) const {
+    Eigen::Matrix<double, 3, 8> u;
+    for (int n = 0; n < 8; ++n)
+      u.col(n) = rotations[lane].transpose() *
+                 x.col(nodes[n * kLanes + lane]).template head<3>().template cast<double>();
+    Eigen::Matrix<double, 24, 1> f = matrices[lane] * Eigen::Map<Eigen::Matrix<double, 24, 1>>(u.data());
+    for (int n = 0; n < 8; ++n) f.segment<3>(3 * n) = (rotations[lane] * f.segment<3>(3 * n)).eval();
+    return f;
+  }
+
+  MatrixForm form;
+  std::vector<ElementMatrix> matrices;
+  std::vector<Mat3> rotations;
+  std::vector<Scalar> stiffness;
+  Scalar rotation[9 * kLanes];
+  int nodes[8 * kLanes];
+  Eigen::Matrix<Scalar, 4, kNodes> x;
+};
+
+template <typename Scalar>
+void expect_products(MatrixForm form, void (*multiply)(const ElementBatch<Scalar>&), double tolerance) {
+  const Specimen<Scalar> specimen(form);
+  alignas(64) Scalar y[32 * kLanes];
+  multiply({form, specimen.stiffness.data(), specimen.rotation, specimen.nodes, specimen.x.data(), y});
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const auto expected = specimen.expected(lane);
+    for (int n = 0; n < 8; ++n) {
+      const Scalar* quad = y + 4 * (kLanes * n + place_of_lane(lane));
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(quad[i], expected[3 * n + i], tolerance * expected.norm());
+      EXPECT_EQ(quad[3], Scalar{0});
+    }
+  }
+}
+
+TEST(Kernels, MultiplyByEveryFormOfMatrix) {
+  for (const ElementKernel& kernel : element_kernels()) {
+    SCOPED_TRACE(kernel.name);
+    for (MatrixForm form : {MatrixForm::kMirrored, MatrixForm::kWhole, MatrixForm::kTriangles}) {
+      expect_products<float>(form, kernel.single, 1e-5);
+      expect_products<double>(form, kernel.precise, 1e-13);
+    }
+  }
+}
+
+TEST(Kernels, AMatrixThatIsNotMirroredIsNotTakenForOne) {
+  EXPECT_TRUE(mirrored(make_matrix(true)).has_value());
+  EXPECT_FALSE(mirrored(make_matrix(false)).has_value());
+}
+
+TEST(Kernels, CorotationAnswersAlike) {
+  const Specimen<double> specimen(MatrixForm::kTriangles);
+  const double size[3] = {0.9, 1.0, 1.1};
+  double x[3 * 8 * kLanes], gradient[24 * kLanes];
+  int nodes[8 * kLanes];
+  for (int lane = 0; lane < kLanes; ++lane) {
+    for (int n = 0; n < 8; ++n) {
+      nodes[n * kLanes + lane] = 8 * lane + n;
+      Vec3 at;
+      for (int i = 0; i < 3; ++i) {
+        at[i] = (n >> i & 1) * size[i] + 0.1 * specimen.x(i, (n + lane) % kNodes);
+        gradient[(3 * n + i) * kLanes + lane] = ((n >> i & 1) ? 0.25 : -0.25) / size[i];
+      }
+      Vec3::Map(x + 3 * (8 * lane + n)) = specimen.rotations[lane] * at;
+    }
+  }
+  std::vector<Eigen::VectorXd> answers;
+  for (const CorotationKernel& kernel : corotation_kernels()) {
+    alignas(64) double forces[32 * kLanes] = {}, rotations[9 * kLanes], energy[kLanes];
+    bool regular[kLanes];
+    kernel.respond({x, nodes, gradient, size, MatrixForm::kTriangles, specimen.stiffness.data(), forces,
+                    rotations, energy, regular});
+    Eigen::VectorXd answer(42 * kLanes);
+    answer << Eigen::Map<Eigen::VectorXd>(forces, 32 * kLanes),
+        Eigen::Map<Eigen::VectorXd>(rotations, 9 * kLanes), Eigen::Map<Eigen::VectorXd>(energy, kLanes);
+    answers.push_back(answer);
+    for (bool is_regular : regular) EXPECT_TRUE(is_regular);
+    for (int lane = 0; lane < kLanes; ++lane) EXPECT_GT(energy[lane], 0.0);
+    EXPECT_LT((answer - answers.front()).norm(), 1e-12 * answers.front().norm()) << kernel.name;
+  }
+}
+
+}  // namespace
+}  // namespace cfem_cutting
