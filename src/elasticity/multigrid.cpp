@@ -12,7 +12,7 @@ constexpr int kCoarsestNodes = 40;  // few enough to be factorised in every solv
 constexpr std::size_t kMostLevels = 12;
 
 /// Work on coarse levels costs little, and partly filled or cut elements need it there.
-constexpr Smoothing kFinestSmoothing{2, 0.06}, kCoarseSmoothing{4, 0.03};
+constexpr Smoothing kFinestSmoothing{2, 0.06}, kCoarseSmoothing{5, 0.02};
 
 std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constraints) {
   std::vector<ConstraintRow> rows;

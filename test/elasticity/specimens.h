@@ -21,6 +21,26 @@ inline VoxelVolume tilted_volume(const Vec3& size, double spacing) {
   return VoxelVolume::sample(*make_box(size, pose), Vec3::Constant(spacing));
 }
 
+/// A box of image voxels of this spacing, label 1 where `first` holds and 2 elsewhere, placed by X_TS.
+inline VoxelVolume labelled_volume(const Vec3i& size, double spacing, double lattice_spacing,
+                                   const Pose& X_TS, const std::function<bool(const Vec3&)>& first) {
+  LabelImage image{size, Vec3::Constant(spacing), {}};
+  const Lattice lattice{Vec3::Zero(), image.spacing, size};
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j)
+      for (int i = 0; i < size.x(); ++i) image.labels.push_back(first(lattice.centre({i, j, k})) ? 1 : 2);
+  return VoxelVolume::sample(*make_label_shape(image, {1, 2}, X_TS, "two materials"),
+                             Vec3::Constant(lattice_spacing));
+}
+
+/// Materials of the labels 1 and 2.
+inline std::vector<Material> two_materials(const Material& first, const Material& second) {
+  std::vector<Material> materials{first, second};
+  materials[0].label = 1;
+  materials[1].label = 2;
+  return materials;
+}
+
 /// Severs the links that cross a plane through `point` (m), where the voxel's centre fulfils `where`.
 inline void sever_plane(
     VoxelVolume& volume, const Vec3& point, const Vec3& normal,

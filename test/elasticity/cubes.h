@@ -1,0 +1,55 @@
+#pragma once
+/// Cubes of tissue, 0.1 m across and held at the bottom, whose equilibria tests count and benchmarks time.
+
+#include "specimens.h"
+
+namespace cfem_cutting {
+
+enum class CubeTissue {
+  kUniform,
+  kLayers,  ///< of four voxels, 1 : 100
+  kMixture  ///< of voxels without pattern, 1 : 100
+};
+
+inline HeldNodes hold_bottom(const CompositeMesh& mesh) {
+  const double bottom = mesh.rest().row(2).minCoeff();
+  return hold_where(mesh, [bottom](const Vec3& X) { return X.z() <= bottom + 0.01; });
+}
+
+/// Severs the links through y = 0.0503 m from the top down to a part of the height.
+inline void sever_half(VoxelVolume& volume, double part) {
+  sever_plane(volume, {0.0, 0.0503, 0.0}, Vec3::UnitY(),
+              [part](const Vec3& X) { return X.z() > 0.1 * (1.0 - part); });
+}
+
+inline VoxelVolume cube_volume(int across, CubeTissue tissue) {
+  const double spacing = 0.1 / across;
+  if (tissue == CubeTissue::kUniform) return box_volume(Vec3::Constant(0.1), spacing);
+  std::mt19937 generator(1);
+  return labelled_volume(Vec3i::Constant(across), spacing, spacing, Pose::Identity(), [&](const Vec3& X) {
+    return tissue == CubeTissue::kLayers ? static_cast<int>(X.z() / spacing) / 4 % 2 == 0
+                                         : generator() % 2 == 0;
+  });
+}
+
+/// @param cut part of the height that is cut, from the top
+inline ElasticModel cube_model(int across, CubeTissue tissue, double cut, double poisson_ratio) {
+  VoxelVolume volume = cube_volume(across, tissue);
+  if (cut > 0.0) sever_half(volume, cut);
+  const Material soft_tissue{-1, 1e4, poisson_ratio, 1060.0}, stiff_tissue{-1, 1e6, poisson_ratio, 1060.0};
+  const auto materials = tissue == CubeTissue::kUniform ? std::vector<Material>{soft_tissue}
+                                                        : two_materials(soft_tissue, stiff_tissue);
+  return {volume, 0, materials, ElementKind::kIncompatibleModes, Kinematics::kCorotational};
+}
+
+/// Solves once for the equilibrium under a hundredth of the weight, to 1e-4.
+/// @return iterations of conjugate gradients
+inline int count_iterations(const ElasticModel& model) {
+  SolverOptions options;
+  options.threads = 1;
+  Integrator integrator(options);
+  NodeField x = model.mesh().rest();
+  return integrator.equilibrate(model, x, {0, 0, -0.1}, hold_bottom(model.mesh()), {}, 1).iterations;
+}
+
+}  // namespace cfem_cutting
