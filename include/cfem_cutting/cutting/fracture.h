@@ -39,22 +39,28 @@ struct Fracture {
 Fracture decide(const FractureOptions& options, const std::vector<Candidate>& candidates,
                 double contact_offset, double block);
 
-/// Displacement since the reference state minus the best-fit rigid motion of the piece.
+/// Displacement since the reference state; of a piece that nothing holds, minus its best-fit rigid motion.
+/// (Of a held piece the whole displacement counts, as in the paper: the best fit would take a part of any
+/// bend for a rigid motion.)
 class OffsetField {
  public:
+  /// @param floating per node, whether nothing holds its piece
   /// @param reference, current node positions, (3 × |nodes|)
   OffsetField(const VoxelVolume& volume, const Pieces& pieces, const CompositeMesh& mesh,
-              const NodeField& reference, const NodeField& current);
+              const std::vector<char>& floating, const NodeField& reference, const NodeField& current);
 
   /// m, of a material point that moves with a voxel's element.
   double offset(int voxel, const Vec3& X) const;
+
+  /// m, of a material point if it stood at x (m, in T).
+  double offset_at(int voxel, const Vec3& X, const Vec3& x) const;
 
  private:
   const Pieces& pieces_;
   const CompositeMesh& mesh_;
   const NodeField& reference_;
   const NodeField& current_;
-  std::vector<Pose> rigid_motion_;  // of each piece, reference → current
+  std::vector<Pose> rigid_motion_;  // of each piece, reference → current; identity if it is held
 };
 
 }  // namespace cfem_cutting
