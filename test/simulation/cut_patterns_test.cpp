@@ -96,6 +96,22 @@ TEST(CutPatterns, four_cuts_cut_a_plug_out) {
   expect_sound(simulation);
 }
 
+TEST(CutPatterns, a_plug_that_falls_away_is_not_cut_on) {
+  SimulationConfig config = sheet_config();
+  config.tissue.gravity = Vec3(0, 0, -9.81);
+  Simulation simulation = make_simulation(config, kShort);
+  for (const double x : {0.0161, 0.0321}) press(simulation, x, 0.0241, false);
+  for (const double y : {0.0161, 0.0321}) press(simulation, 0.0241, y, true);
+  ASSERT_EQ(simulation.pieces().count(), 2);
+  const std::int64_t severed = simulation.volume().severed_count();
+  const Pose under = at(0.0241, 0.0241, -0.05);
+  test::drive(simulation,
+              {at(0.0241, 0.0241, 0.02), at(0.06, 0.0241, 0.02), at(0.06, 0.0241, -0.05), under, under}, 0.2,
+              [](const StepReport& report) { EXPECT_TRUE(report.events.empty()); });
+  EXPECT_EQ(simulation.volume().severed_count(), severed);
+  expect_sound(simulation);
+}
+
 TEST(CutPatterns, four_cuts_can_leave_dust) {
   Simulation simulation = make_simulation(sheet_config(), kShort);
   for (const double x : {0.0201, 0.0239}) press(simulation, x, 0.0241, false);
