@@ -106,9 +106,9 @@ void Simulation::State::sever(const Fracture& fracture, StepReport& report) {
   FractureEvent event;
   const double energy_before = potential(elastic.x);
   const int pieces_before = pieces.count();
-  let_go();
+  if (fracture.advances) let_go();
   if (!fracture.severed.empty()) rebuild(fracture);
-  advance_cut_end();
+  if (fracture.advances) advance_cut_end();
   event.fracture_work = energy_before - potential(reference);
   describe(fracture, event);
   event.separated = pieces.count() > pieces_before;

@@ -45,6 +45,8 @@ TEST(Fracture, LinksLeftBehindAreSeveredAlone) {
   EXPECT_TRUE(fracture.happens);
   ASSERT_EQ(fracture.severed.size(), 1u);
   EXPECT_EQ(fracture.severed[0].link.voxel, 0);
+  EXPECT_FALSE(fracture.advances);
+  EXPECT_TRUE(decide({}, candidates, 0.0031, kBlock).advances);
   EXPECT_FALSE(decide({}, candidates, 0.0, 2.0 * kBlock).happens);
   EXPECT_FALSE(decide({FractureMode::kDelayed, 0.01, 0.001}, candidates, 0.0, kBlock).happens);
 }

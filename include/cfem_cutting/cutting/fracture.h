@@ -26,6 +26,7 @@ struct Candidate {
 /// Links to be severed and those that wait on.
 struct Fracture {
   bool happens = false;
+  bool advances = false;  ///< the cut's end goes to the front; false if it happens to links left behind alone
   std::vector<Crossing> severed;
   std::vector<Candidate> waiting;
 };
@@ -33,7 +34,8 @@ struct Fracture {
 /// Decides by the offset criterion (the paper's delayed fracture): it happens when the largest offset of
 /// candidates and contacts exceeds d0; then candidates with an offset above d1 are severed. A candidate that
 /// the front has passed by more than max(d0, 2h) is severed in any case (and makes it happen; below d0 it
-/// takes no others along). In immediate mode any candidate makes it happen and all are severed. h is `block`.
+/// takes no others along and the load on the cut's end goes on). In immediate mode any candidate makes it
+/// happen and all are severed. h is `block`.
 /// @param contact_offset m, the largest offset of contact points
 /// @param block m, the edge of a composite element
 Fracture decide(const FractureOptions& options, const std::vector<Candidate>& candidates,
