@@ -73,6 +73,17 @@ TEST_P(PoseRate, changes_a_delayed_cut_by_no_more_than_a_layer_at_its_end) {
   }
 }
 
+/// What a node does that lags.
+TEST_P(PoseRate, may_be_a_single_step_along_all_poses) {
+  SimulationConfig config = box_config();
+  config.fracture.mode = FractureMode::kImmediate;
+  Simulation simulation = test::make_simulation(config);
+  StepInput input;
+  input.path = GetParam()();
+  simulation.step(input);
+  EXPECT_EQ(simulation.volume().severed_links(), cut(config, GetParam()(), kRate));
+}
+
 INSTANTIATE_TEST_SUITE_P(paths, PoseRate, testing::Values(zigzag, winding));
 
 }  // namespace
