@@ -7,7 +7,7 @@ namespace {
 
 Fracture sever_all(const std::vector<Candidate>& candidates) {
   Fracture fracture;
-  fracture.happens = !candidates.empty();
+  fracture.happens = fracture.advances = !candidates.empty();
   for (const Candidate& c : candidates) fracture.severed.push_back(c.crossing);
   return fracture;
 }
@@ -27,6 +27,7 @@ Fracture decide(const FractureOptions& options, const std::vector<Candidate>& ca
   Fracture fracture;
   const bool onset = largest > options.onset_offset;
   fracture.happens = onset || any_left;
+  fracture.advances = onset;
   for (const Candidate& c : candidates) {
     const bool released = (onset && c.offset > options.release_offset) || c.passed_by > left_behind;
     if (fracture.happens && released)

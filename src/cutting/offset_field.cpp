@@ -39,10 +39,12 @@ Pose best_fit(const Moments& m) {
 }  // namespace
 
 OffsetField::OffsetField(const VoxelVolume& volume, const Pieces& pieces, const CompositeMesh& mesh,
-                         const NodeField& reference, const NodeField& current)
+                         const std::vector<char>& floating, const NodeField& reference,
+                         const NodeField& current)
     : pieces_(pieces), mesh_(mesh), reference_(reference), current_(current) {
   std::vector<Moments> moments(pieces.count());
   for (const CompositeElement& element : mesh.elements()) {
+    if (!floating[element.nodes[0]]) continue;
     const int piece = pieces.piece_of_voxel[element.voxels.front()];
     double weight = 0.0;
     for (const int voxel : element.voxels) weight += volume.filled_volume(voxel);
@@ -54,8 +56,12 @@ OffsetField::OffsetField(const VoxelVolume& volume, const Pieces& pieces, const 
 }
 
 double OffsetField::offset(int voxel, const Vec3& X) const {
-  const Embedding at = mesh_.embed(voxel, X);
-  return (at.apply(current_) - rigid_motion_[pieces_.piece_of_voxel[voxel]] * at.apply(reference_)).norm();
+  return offset_at(voxel, X, mesh_.embed(voxel, X).apply(current_));
+}
+
+double OffsetField::offset_at(int voxel, const Vec3& X, const Vec3& x) const {
+  const Vec3 x_ref = mesh_.embed(voxel, X).apply(reference_);
+  return (x - rigid_motion_[pieces_.piece_of_voxel[voxel]] * x_ref).norm();
 }
 
 }  // namespace cfem_cutting

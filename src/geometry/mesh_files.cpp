@@ -81,7 +81,7 @@ void put(std::ofstream& file, const Value& value) {
 void write_ply_header(std::ofstream& file, const TriangleMesh& mesh) {
   file << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.vertices.size()
        << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << mesh.triangles.size()
-       << "\nproperty list uchar int vertex_indices\nproperty uchar cut\nend_header\n";
+       << "\nproperty list uchar int vertex_indices\nproperty uchar cut\nproperty uchar label\nend_header\n";
 }
 
 }  // namespace
@@ -103,8 +103,9 @@ TriangleMesh read_mesh(const std::string& path) {
   return mesh;
 }
 
-void write_ply(const std::string& path, const TriangleMesh& mesh, const std::vector<std::uint8_t>& cut) {
-  assert(cut.size() == mesh.triangles.size());
+void write_ply(const std::string& path, const TriangleMesh& mesh, const std::vector<std::uint8_t>& cut,
+               const std::vector<std::uint8_t>& label) {
+  assert(cut.size() == mesh.triangles.size() && label.size() == mesh.triangles.size());
   std::ofstream file(path, std::ios::binary);
   write_ply_header(file, mesh);
   for (const Vec3& vertex : mesh.vertices)
@@ -113,6 +114,7 @@ void write_ply(const std::string& path, const TriangleMesh& mesh, const std::vec
     put(file, std::uint8_t{3});
     for (const int vertex : mesh.triangles[t]) put(file, std::int32_t{vertex});
     put(file, cut[t]);
+    put(file, label[t]);
   }
   file.flush();
   if (!file) throw FileError("surface file '" + path + "': not writable");

@@ -100,11 +100,12 @@ void write_deformed_surface(const OutputFolder& folder, const std::string& name,
   const TissueSurface& surface = simulation.surface();
   DeformedSurface deformed = simulation.deformed_surface();
   deformed.positions.resize(surface.vertices.size());  // the doubles come last
-  write_ply(folder.file(name), {deformed.positions, surface.triangles}, surface.cut);
+  write_ply(folder.file(name), {deformed.positions, surface.triangles}, surface.cut, surface.label);
 }
 
 void write_rest_surface(const OutputFolder& folder, const std::string& name, const Simulation& simulation) {
-  write_ply(folder.file(name), simulation.surface().rest(), simulation.surface().cut);
+  const TissueSurface& surface = simulation.surface();
+  write_ply(folder.file(name), surface.rest(), surface.cut, surface.label);
 }
 
 }  // namespace cfem_cutting

@@ -74,7 +74,7 @@ bool Services::save_surface(SaveSurface::Request& request, SaveSurface::Response
         loop_.run_between_steps([&](Simulation& simulation) { surface = simulation.deformed_surface(); });
     if (!response.success) return true;
     std::filesystem::create_directories(folder);
-    write_ply(response.path, surface.mesh(), surface.cut);
+    write_ply(response.path, surface.mesh(), surface.cut, surface.label);
   } catch (const std::exception& error) {
     response.success = false;
     response.message = error.what();

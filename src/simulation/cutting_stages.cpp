@@ -65,15 +65,21 @@ void Simulation::State::leave_tissue() {
   trail.drop();
 }
 
+/// A bound point's offset: it rides on the blade, so where the tissue can't follow (at a held base) the
+/// blade's way counts.
+double Simulation::State::offset(const OffsetField& offsets, const EdgeContactPoint& p) {
+  return p.active ? offsets.offset_at(p.voxel, p.X, p.on_edge) : offsets.offset(p.voxel, p.X);
+}
+
 double Simulation::State::contact_offset(const OffsetField& offsets) const {
   double largest = 0.0;
   for (const EdgeContactPoint& p : contact.points())
-    if (p.active) largest = std::max(largest, offsets.offset(p.voxel, p.X));
+    if (p.active) largest = std::max(largest, offset(offsets, p));
   return largest;
 }
 
 Fracture Simulation::State::judge() {
-  const OffsetField offsets(volume, pieces, model.mesh(), reference, elastic.x);
+  const OffsetField offsets = offset_field();
   unit.measure(volume, offsets, tracker.runs_inside(), push(), block);
   unit.largest_offset = contact_offset(offsets);
   Fracture fracture = decide(config.fracture, unit.candidates(), unit.largest_offset, block);
@@ -90,7 +96,7 @@ bool Simulation::State::advances(const Fracture& fracture, const OffsetField& of
   const double least = kAdvance * volume.lattice().spacing.minCoeff();
   const std::vector<Touch> front = tracker.inside();
   return std::any_of(contact.points().begin(), contact.points().end(), [&](const EdgeContactPoint& p) {
-    if (offsets.offset(p.voxel, p.X) <= config.fracture.release_offset) return false;
+    if (offset(offsets, p) <= config.fracture.release_offset) return false;
     return std::all_of(front.begin(), front.end(),
                        [&](const Touch& t) { return (t.X - p.X).norm() > least; });
   });
@@ -100,14 +106,9 @@ void Simulation::State::sever(const Fracture& fracture, StepReport& report) {
   FractureEvent event;
   const double energy_before = potential(elastic.x);
   const int pieces_before = pieces.count();
-  {
-    const OffsetField offsets(volume, pieces, model.mesh(), reference, elastic.x);
-    contact.release_if([&](const EdgeContactPoint& p) {
-      return offsets.offset(p.voxel, p.X) > config.fracture.release_offset;
-    });
-  }
+  if (fracture.advances) let_go();
   if (!fracture.severed.empty()) rebuild(fracture);
-  advance_cut_end();
+  if (fracture.advances) advance_cut_end();
   event.fracture_work = energy_before - potential(reference);
   describe(fracture, event);
   event.separated = pieces.count() > pieces_before;
@@ -115,6 +116,15 @@ void Simulation::State::sever(const Fracture& fracture, StepReport& report) {
   report.events.push_back(event);
   report.phase = Phase::kFractured;
   unit.begin_next(fracture.waiting);
+}
+
+/// Contact points with an offset above d1 are released, and all when the front has gone through the tissue.
+void Simulation::State::let_go() {
+  const OffsetField offsets = offset_field();
+  const bool through = tracker.inside().empty();
+  contact.release_if([&](const EdgeContactPoint& p) {
+    return through || offset(offsets, p) > config.fracture.release_offset;
+  });
 }
 
 void Simulation::State::rebuild(const Fracture& fracture) {
@@ -125,7 +135,7 @@ void Simulation::State::rebuild(const Fracture& fracture) {
   inherit(elastic.v);
   inherit(reference);
   pieces = find_pieces(volume);
-  grips.find_nodes(model.mesh());
+  find_held();
   grips.move(model.mesh(), elapsed, {});
   refresh_reference();
 }

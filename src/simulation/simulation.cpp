@@ -52,7 +52,7 @@ DeformedSurface Simulation::deformed_surface() const {
 }
 
 std::vector<double> Simulation::offsets(const DeformedSurface& drawn) const {
-  const OffsetField field(s_->volume, s_->pieces, s_->model.mesh(), s_->reference, s_->elastic.x);
+  const OffsetField field = s_->offset_field();
   std::vector<double> values;
   values.reserve(drawn.positions.size());
   for (std::size_t i = 0; i < drawn.positions.size(); ++i) {

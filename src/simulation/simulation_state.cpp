@@ -60,7 +60,7 @@ Simulation::State::State(const SimulationConfig& config_in, VoxelVolume uncut, c
       trail(0.125 * volume.lattice().spacing.minCoeff()),
       cut_surface(volume.lattice().spacing.maxCoeff()),
       extractor(volume) {
-  grips.find_nodes(model.mesh());
+  find_held();
   extractor.extract({});
   warnings = find_warnings(volume, grips, config.probes);
 }
@@ -72,6 +72,11 @@ void Simulation::State::place_grips(const StepInput& input) {
   grip_travel += grip_step;
   const bool outdated = grip_travel > kNoticeable * volume.lattice().spacing.minCoeff();
   if (outdated && !contact.empty()) refresh_reference();
+}
+
+void Simulation::State::find_held() {
+  grips.find_nodes(model.mesh());
+  floating = floating_nodes(model.mesh(), grips.held().nodes);
 }
 
 /// In contact the reference is solved for: at first touch, after each fracture that severs links, and when
@@ -88,7 +93,6 @@ void Simulation::State::refresh_reference() {
 void Simulation::State::follow_free_state() {
   constexpr double kNegligible = 1.0e-4;  // of a block
   constexpr double kSwing = 0.05;         // of a block in a step
-  const std::vector<char> floating = floating_nodes(model.mesh(), grips.held().nodes);
   double swing = 0.0;
   for (Eigen::Index n = 0; n < reference.cols(); ++n)
     if (!floating[n]) swing = std::max(swing, elastic.v.col(n).norm() * config.dynamics.time_step);
@@ -99,6 +103,10 @@ void Simulation::State::follow_free_state() {
   reference = std::move(next);
   reference_converged = true;
   pull_back = std::make_unique<InverseMap>(volume, model.mesh(), reference);
+}
+
+OffsetField Simulation::State::offset_field() const {
+  return OffsetField(volume, pieces, model.mesh(), floating, reference, elastic.x);
 }
 
 double Simulation::State::potential(const NodeField& x) const {

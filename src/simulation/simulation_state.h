@@ -31,12 +31,16 @@ struct Simulation::State {
   void come_out();
   bool is_out() const { return contact.empty() && tracker.inside().empty(); }
   bool advances(const Fracture& fracture, const OffsetField& offsets) const;
+  void let_go();
   void rebuild(const Fracture& fracture);
   void advance_cut_end();
   void describe(const Fracture& fracture, FractureEvent& event);
+  void find_held();
   void refresh_reference();
   void follow_free_state();
+  OffsetField offset_field() const;
   double potential(const NodeField& x) const;
+  static double offset(const OffsetField& offsets, const EdgeContactPoint& p);
   double contact_offset(const OffsetField& offsets) const;
   FrontTrace front_trace() const;
   Vec3 push() const;
@@ -52,6 +56,7 @@ struct Simulation::State {
   Integrator integrator;
   Pieces pieces;
   Grips grips;
+  std::vector<char> floating;  // per node, whether no grip holds its piece
   ElasticState elastic;
   NodeField reference;                    // φ_ref: equilibrium without the blade
   std::unique_ptr<InverseMap> pull_back;  // of φ_ref

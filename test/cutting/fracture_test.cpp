@@ -45,6 +45,8 @@ TEST(Fracture, LinksLeftBehindAreSeveredAlone) {
   EXPECT_TRUE(fracture.happens);
   ASSERT_EQ(fracture.severed.size(), 1u);
   EXPECT_EQ(fracture.severed[0].link.voxel, 0);
+  EXPECT_FALSE(fracture.advances);
+  EXPECT_TRUE(decide({}, candidates, 0.0031, kBlock).advances);
   EXPECT_FALSE(decide({}, candidates, 0.0, 2.0 * kBlock).happens);
   EXPECT_FALSE(decide({FractureMode::kDelayed, 0.01, 0.001}, candidates, 0.0, kBlock).happens);
 }
@@ -75,6 +77,8 @@ Pose far_away() {
   return pose;
 }
 
+std::vector<char> all_float(const CompositeMesh& mesh) { return std::vector<char>(mesh.node_count(), 1); }
+
 /// A bar, severed across so that it falls into a long piece and a short one of a single element.
 struct Bar {
   VoxelVolume volume = box_volume({0.064, 0.016, 0.016}, 0.004);
@@ -91,7 +95,7 @@ TEST(OffsetField, EachPieceMayMoveRigidly) {
     if (pieces.piece_of_voxel[element.voxels.front()] == 0) continue;
     for (const int node : element.nodes) moved.col(node) = far_away() * Vec3(mesh.rest().col(node));
   }
-  const OffsetField offsets(bar.volume, pieces, mesh, mesh.rest(), moved);
+  const OffsetField offsets(bar.volume, pieces, mesh, all_float(mesh), mesh.rest(), moved);
   for (int v = 0; v < static_cast<int>(bar.volume.voxels().size()); ++v)
     EXPECT_NEAR(offsets.offset(v, bar.volume.centre(v)), 0.0, 1e-12);
 }
@@ -103,13 +107,25 @@ TEST(OffsetField, RigidMotionAddsNothingToADent) {
   NodeField dented = mesh.rest() + random_displacement(mesh.node_count(), 0.001, 5);
   NodeField moved = dented;
   for (int n = 0; n < mesh.node_count(); ++n) moved.col(n) = far_away() * Vec3(dented.col(n));
-  const OffsetField still(volume, pieces, mesh, mesh.rest(), dented);
-  const OffsetField drifting(volume, pieces, mesh, mesh.rest(), moved);
+  const OffsetField still(volume, pieces, mesh, all_float(mesh), mesh.rest(), dented);
+  const OffsetField drifting(volume, pieces, mesh, all_float(mesh), mesh.rest(), moved);
   for (int v = 0; v < static_cast<int>(volume.voxels().size()); ++v) {
     const Vec3 X = volume.centre(v);
     EXPECT_NEAR(still.offset(v, X), drifting.offset(v, X), 1e-12);
     EXPECT_LT(still.offset(v, X), 0.003);
   }
+}
+
+TEST(OffsetField, MotionOfAHeldPieceCounts) {
+  const VoxelVolume volume = box_volume({0.032, 0.016, 0.016}, 0.004);
+  const CompositeMesh mesh(volume, 1);
+  const Pieces pieces = find_pieces(volume);
+  const Vec3 way(0.003, 0.0, 0.004);
+  const NodeField moved = mesh.rest().colwise() + way;
+  const std::vector<char> held(mesh.node_count(), 0);
+  const OffsetField offsets(volume, pieces, mesh, held, mesh.rest(), moved);
+  EXPECT_NEAR(offsets.offset(7, volume.centre(7)), 0.005, 1e-12);
+  EXPECT_NEAR(offsets.offset_at(7, volume.centre(7), volume.centre(7) + 2.0 * way), 0.01, 1e-12);
 }
 
 }  // namespace

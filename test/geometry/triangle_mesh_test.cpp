@@ -124,16 +124,20 @@ TEST_F(MeshFiles, MergesVerticesThatNormalsKeepApart) {
 }
 
 TEST_F(MeshFiles, PlyRoundTripKeepsMeshAndFlags) {
-  write_ply(path("t.ply"), tetrahedron(), {0, 1, 0, 1});
+  write_ply(path("t.ply"), tetrahedron(), {0, 1, 0, 1}, {7, 7, 8, 9});
   expect_unit_tetrahedron(read_mesh(path("t.ply")));
   std::ifstream file(path("t.ply"), std::ios::binary);
   const std::string content((std::istreambuf_iterator<char>(file)), {});
-  const std::string header_end = "property uchar cut\nend_header\n";
+  const std::string header_end = "property uchar cut\nproperty uchar label\nend_header\n";
   const auto body = content.find(header_end);
   ASSERT_NE(body, std::string::npos);
   const auto faces = body + header_end.size() + 4 * 12;
-  ASSERT_EQ(content.size(), faces + 4 * 14);
-  for (int t = 0; t < 4; ++t) EXPECT_EQ(content[faces + 14 * t + 13], t % 2);
+  ASSERT_EQ(content.size(), faces + 4 * 15);
+  const int labels[] = {7, 7, 8, 9};
+  for (int t = 0; t < 4; ++t) {
+    EXPECT_EQ(content[faces + 15 * t + 13], t % 2);
+    EXPECT_EQ(content[faces + 15 * t + 14], labels[t]);
+  }
 }
 
 TEST_F(MeshFiles, RefusesMissingAndUnreadableFiles) {
@@ -145,7 +149,7 @@ TEST_F(MeshFiles, RefusesMissingAndUnreadableFiles) {
   }
   EXPECT_THROW(read_mesh(write("bad.off", "not a mesh")), FileError);
   EXPECT_THROW(read_mesh(write("points.obj", "v 0 0 0\nv 1 0 0\n")), FileError);
-  EXPECT_THROW(write_ply(path("no/such/folder.ply"), tetrahedron(), {0, 0, 0, 0}), FileError);
+  EXPECT_THROW(write_ply(path("no/such/folder.ply"), tetrahedron(), {0, 0, 0, 0}, {0, 0, 0, 0}), FileError);
 }
 
 }  // namespace

@@ -83,6 +83,21 @@ TEST(Simulation, delayed_cutting_is_a_saw) {
   EXPECT_LE(units, 12);
 }
 
+TEST(Simulation, links_that_moved_less_than_d1_wait_for_a_later_unit) {
+  SimulationConfig config = box_config(0.004, 0);
+  config.fracture.onset_offset = 0.006;
+  config.fracture.release_offset = 0.0054;
+  Simulation simulation = make_simulation(config);
+  int carried_over = 0, severed = 0;
+  drive(simulation, {at(0.0321, 0.0163, 0.036), at(0.0321, 0.0163, -0.02)}, 0.05,
+        [&](const StepReport& report) {
+          for (const FractureEvent& event : report.events) severed += static_cast<int>(event.links_severed);
+          if (!report.events.empty() && report.candidates > 0) ++carried_over;
+        });
+  EXPECT_GE(carried_over, 3);
+  EXPECT_EQ(severed, 8 * 8);
+}
+
 TEST(Simulation, immediate_mode_fractures_whenever_links_are_met) {
   SimulationConfig config = box_config();
   config.fracture.mode = FractureMode::kImmediate;

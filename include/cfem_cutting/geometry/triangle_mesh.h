@@ -33,9 +33,11 @@ MeshDefects find_defects(const TriangleMesh& mesh);
 /// @throw FileError missing, unreadable or without triangles.
 TriangleMesh read_mesh(const std::string& path);
 
-/// Binary little-endian PLY with a per-face uchar property `cut`.
+/// Binary little-endian PLY with per-face uchar properties `cut` and `label`.
 /// @param cut one flag per triangle
+/// @param label of the tissue that each triangle bounds
 /// @throw FileError path not writable.
-void write_ply(const std::string& path, const TriangleMesh& mesh, const std::vector<std::uint8_t>& cut);
+void write_ply(const std::string& path, const TriangleMesh& mesh, const std::vector<std::uint8_t>& cut,
+               const std::vector<std::uint8_t>& label);
 
 }  // namespace cfem_cutting
