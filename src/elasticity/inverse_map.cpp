@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cfem_cutting/volume/inside.h"
 #include "element_hash.h"
 #include "trilinear_inverse.h"
 
@@ -104,7 +105,7 @@ std::optional<MaterialPoint> InverseMap::operator()(const Vec3& x) const {
     if (here && (!found || (here->inside && !found->inside))) found = here;
     return false;
   });
-  return found ? found : beside_tissue(x);
+  return found ? found : beside_tissue(x);  // which may be under the skin, in a voxel without links
 }
 
 /// The point if it lies in a linked voxel of this very element, and not in an open cut.
@@ -158,7 +159,12 @@ std::optional<MaterialPoint> InverseMap::beside_tissue(const Vec3& x) const {
     best = distance;
     nearest = MaterialPoint{*X, v};
   }
-  if (nearest && in_tissue_of_another(*nearest)) nearest->X = draw_back(volume_, nearest->voxel, nearest->X);
+  if (!nearest) return nearest;
+  const int own = volume_.find(volume_.lattice().voxel_at(nearest->X));
+  const int skin = own >= 0 && volume_.voxel(own).linked() ? -1 : skin_voxel_at(volume_, nearest->X);
+  if (skin >= 0 && mesh_.element_of_voxel(skin) == mesh_.element_of_voxel(nearest->voxel))
+    nearest = MaterialPoint{nearest->X, skin, true, true};
+  if (in_tissue_of_another(*nearest)) nearest->X = draw_back(volume_, nearest->voxel, nearest->X);
   return nearest;
 }
 

@@ -153,7 +153,7 @@ RunFigures run_steps(Simulation& simulation, StepSource& steps, const OutputFold
     const Clock::time_point step_start = Clock::now();
     const StepReport report = simulation.step(*input);
     figures.timing.add(report, milliseconds_since(step_start));
-    figures.statistics.add(report);
+    figures.statistics.add(report, simulation.front_fidelity());
     tables.add(report, simulation.probe_displacements());
     surfaces.add(simulation);
     progress.show(figures.statistics.steps * config.dynamics.time_step);

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "cfem_cutting/geometry/self_crossings.h"
+
 namespace cfem_cutting {
 namespace {
 
@@ -19,12 +21,35 @@ void write_json(const OutputFolder& folder, const std::string& name, const Json&
 double ratio(double sum, int count) { return count > 0 ? sum / count : 0.0; }
 
 Json surface_figures(const TissueSurface& surface) {
-  const SurfaceQuality quality = assess(surface.rest());
+  const TriangleMesh rest = surface.rest();
+  const SurfaceQuality quality = assess(rest);
   return {{"vertices", surface.vertices.size()},
           {"triangles", surface.triangles.size()},
           {"closed", quality.defects.closed()},
           {"manifold", quality.defects.manifold()},
-          {"volume_m3", quality.volume}};
+          {"volume_m3", quality.volume},
+          {"flipped", count_flipped(surface)},
+          {"degenerate", quality.degenerate},
+          {"needles", quality.needles},
+          {"self_intersecting", count_self_crossings(rest)}};
+}
+
+Json figures(const Distances& distances) {
+  return {{"max_m", distances.largest}, {"mean_m", distances.mean()}, {"samples", distances.count}};
+}
+
+/// Crease and cut end together.
+Json blade_distance(const FrontFidelity& front) {
+  Distances both = front.crease;
+  both.add(front.cut_end);
+  return {{"max_m", both.largest}, {"mean_m", both.mean()}};
+}
+
+Json front_figures(const FrontFidelity& front) {
+  return {{"crease", figures(front.crease)},
+          {"cut_end", figures(front.cut_end)},
+          {"vertices", figures(front.vertices)},
+          {"buried_samples", front.buried}};
 }
 
 std::vector<std::string> run_warnings(const RunStatistics& statistics) {
@@ -47,7 +72,8 @@ double percentile(const std::vector<double>& sorted, double part) {
 
 }  // namespace
 
-void RunStatistics::add(const StepReport& report) {
+void RunStatistics::add(const StepReport& report, const FrontFidelity& fidelity) {
+  front.add(fidelity);
   ++steps;
   fracture_events += static_cast<int>(report.events.size());
   for (const FractureEvent& event : report.events) fracture_work += event.fracture_work;
@@ -56,17 +82,14 @@ void RunStatistics::add(const StepReport& report) {
   max_iterations = std::max(max_iterations, report.iterations);
   unconverged_steps += !report.converged;
   steps_with_inverted_elements += report.inverted_elements > 0;
-  max_blade_distance = std::max(max_blade_distance, report.blade_distance);
   const double force = report.spatial.force.norm();
   peak_force = std::max(peak_force, force);
   if (report.contacts.empty()) return;
   ++steps_in_contact_;
   force_sum_ += force;
-  distance_sum_ += report.blade_distance;
 }
 
 double RunStatistics::mean_force() const { return ratio(force_sum_, steps_in_contact_); }
-double RunStatistics::mean_blade_distance() const { return ratio(distance_sum_, steps_in_contact_); }
 
 void write_summary(const OutputFolder& folder, const Simulation& simulation, const RunStatistics& statistics,
                    std::vector<std::string> warnings) {
@@ -93,8 +116,9 @@ void write_summary(const OutputFolder& folder, const Simulation& simulation, con
               {"mean_force_n", statistics.mean_force()},
               {"max_solver_iterations", statistics.max_iterations},
               {"surface", surface_figures(simulation.surface())},
-              {"blade_distance",
-               {{"max_m", statistics.max_blade_distance}, {"mean_m", statistics.mean_blade_distance()}}},
+              {"blade_distance", blade_distance(statistics.front)},
+              {"front", front_figures(statistics.front)},
+              {"cut_faces", figures(simulation.cut_face_distances())},
               {"warnings", warnings}});
 }
 

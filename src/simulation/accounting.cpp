@@ -20,16 +20,6 @@ double work(const Wrench& wrench, const Pose& motion) {
   return wrench.force.dot(motion.translation()) + wrench.moment.dot(rotation);
 }
 
-double point_to_mesh(const Vec3& p, const DeformedSurface& drawn, double radius) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& t : drawn.triangles) {
-    const Vec3& a = drawn.positions[t[0]];
-    if ((a - p).squaredNorm() > radius * radius) continue;
-    nearest = std::min(nearest, point_triangle_distance(p, a, drawn.positions[t[1]], drawn.positions[t[2]]));
-  }
-  return std::min(nearest, radius);
-}
-
 }  // namespace
 
 void Simulation::State::take_wrench() {
@@ -43,18 +33,6 @@ void Simulation::State::take_wrench() {
   unit.blade_work += by_blade;
   blade_work += by_blade;
   unit.peak_force = std::max(unit.peak_force, wrench.force.norm());
-}
-
-/// Largest distance of the edge, where it holds a crease or a cut's end, from the drawn surface.
-double Simulation::State::blade_distance() const {
-  if (!contact.pushes()) return 0.0;
-  const DeformedSurface drawn = deform(extractor.surface(), model.mesh(), elastic.x, tracker.front().points);
-  const double radius = 3.0 * volume.lattice().spacing.maxCoeff();
-  double largest = 0.0;
-  for (const EdgeContactPoint& p : contact.points())
-    if (p.active && extractor.reaches(p.X))
-      largest = std::max(largest, point_to_mesh(p.on_edge, drawn, radius));
-  return largest;
 }
 
 void Simulation::State::account(StepReport& report) {
@@ -71,7 +49,6 @@ void Simulation::State::account(StepReport& report) {
   report.cut_area = cut_area;
   report.pieces = static_cast<std::uint32_t>(pieces.count());
   report.blade_work = blade_work;
-  report.blade_distance = blade_distance();
 }
 
 }  // namespace cfem_cutting

@@ -1,5 +1,6 @@
 #include "cfem_cutting/simulation/front_tracker.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cfem_cutting {
@@ -52,6 +53,37 @@ std::vector<Touch> FrontTracker::inside() const {
       touches.push_back({along[i], front_.points[i], material_[i]->X, material_[i]->voxel});
   }
   return touches;
+}
+
+int FrontTracker::segment_at(double along) const {
+  const std::vector<double> at = arc_lengths();
+  const int next = static_cast<int>(std::upper_bound(at.begin(), at.end(), along) - at.begin());
+  return std::clamp(next, 1, static_cast<int>(at.size()) - 1) - 1;
+}
+
+Vec3 FrontTracker::material_tangent(double along, int step) const {
+  const int i = segment_at(along);
+  if (!material_[i] || !material_[i + 1]) return Vec3::Zero();
+  return step * (material_[i + 1]->X - material_[i]->X).normalized();
+}
+
+std::optional<FrontEnd> FrontTracker::end_beyond(double along, int step, const VoxelVolume& volume) const {
+  const std::vector<double> at = arc_lengths();
+  const int count = static_cast<int>(at.size());
+  const auto inside = [&](int i) { return i >= 0 && i < count && material_[i] && material_[i]->inside; };
+  const int before = segment_at(along), next = before + 1;
+  if (!material_[before] || !material_[next]) return std::nullopt;
+  const double part = (along - at[before]) / (at[next] - at[before]);
+  FrontEnd end;
+  end.X_at_start = material_[before]->X + part * (material_[next]->X - material_[before]->X);
+  if (tissue_voxel_at(volume, end.X_at_start) < 0) return std::nullopt;
+  end.X = end.X_at_start;
+  int i = step > 0 ? next : before;
+  for (; inside(i); i += step) end.X = material_[i]->X;
+  end.edge_ends = i < 0 || i == count;
+  const bool leaves = i >= 0 && i < count && material_[i] && tissue_voxel_at(volume, material_[i]->X) < 0;
+  if (leaves) end.X = find_entry(volume, material_[i]->X, end.X).X;
+  return end;
 }
 
 std::vector<Polyline> FrontTracker::runs_inside() const {

@@ -1,5 +1,7 @@
 #include "cfem_cutting/simulation/simulation.h"
 
+#include <algorithm>
+
 #include "simulation_state.h"
 #include "stopwatch.h"
 
@@ -47,8 +49,27 @@ const Front& Simulation::front() const { return s_->tracker.front(); }
 const std::vector<std::string>& Simulation::warnings() const { return s_->warnings; }
 
 DeformedSurface Simulation::deformed_surface() const {
-  const bool on_blade = s_->contact.pushes();
+  const bool on_blade = s_->config.surface.influence_domain_adaptation;
   return deform(surface(), s_->model.mesh(), s_->elastic.x, on_blade ? front().points : Polyline());
+}
+
+FrontFidelity Simulation::front_fidelity() const {
+  if (s_->held.empty() && s_->tracker.inside().empty()) return {};
+  return measure_front(surface(), deformed_surface(), front().points, s_->held_parts(),
+                       s_->volume.lattice().spacing.minCoeff());
+}
+
+Distances Simulation::cut_face_distances() const {
+  const double voxel = s_->volume.lattice().spacing.maxCoeff();
+  Distances distances;
+  const auto add = [&](const Vec3& X) { distances.add(std::min(voxel, s_->cut_surface.distance(X, voxel))); };
+  for (std::size_t t = 0; t < surface().triangles.size(); ++t) {
+    if (!surface().cut[t]) continue;
+    const auto& [i, j, k] = surface().triangles[t];
+    const Vec3 &a = surface().vertices[i].X, &b = surface().vertices[j].X, &c = surface().vertices[k].X;
+    for (const Vec3& X : {a, b, c, Vec3((a + b + c) / 3.0)}) add(X);
+  }
+  return distances;
 }
 
 std::vector<double> Simulation::offsets(const DeformedSurface& drawn) const {

@@ -19,7 +19,7 @@ double stiffest(const std::vector<Material>& materials) {
   return modulus;
 }
 
-double contact_spacing(const VoxelVolume& volume) { return 0.5 * volume.lattice().spacing.minCoeff(); }
+double half_voxel(const VoxelVolume& volume) { return 0.5 * volume.lattice().spacing.minCoeff(); }
 
 std::vector<std::string> find_warnings(const VoxelVolume& volume, const Grips& grips,
                                        const std::vector<Vec3>& probes) {
@@ -54,8 +54,8 @@ Simulation::State::State(const SimulationConfig& config_in, VoxelVolume uncut, c
       reference(elastic.x),
       pull_back(std::make_unique<InverseMap>(volume, model.mesh(), reference)),
       block(model.mesh().block_size().maxCoeff()),
-      tracker(blade, contact_spacing(volume)),
-      contact(contact_spacing(volume), kContactStiffness * stiffest(config.tissue.materials) * block,
+      tracker(blade, half_voxel(volume)),
+      contact(half_voxel(volume), kContactStiffness * stiffest(config.tissue.materials) * block,
               blade.friction),
       trail(0.125 * volume.lattice().spacing.minCoeff()),
       cut_surface(volume.lattice().spacing.maxCoeff()),
@@ -115,22 +115,8 @@ double Simulation::State::potential(const NodeField& x) const {
 
 Vec3 Simulation::State::push() const { return -tracker.front().back; }
 
-FrontTrace Simulation::State::front_trace() const {
-  if (immediate()) return tracker.runs_inside();
-  FrontTrace trace;
-  double last = 0.0;
-  for (const EdgeContactPoint& p : contact.points()) {
-    const bool continues = !trace.empty() && p.along - last < 3.0 * contact_spacing(volume);
-    if (!continues) trace.emplace_back();
-    trace.back().push_back(p.X);
-    last = p.along;
-  }
-  return trace;
-}
-
 void Simulation::State::adapt() {
-  const bool wanted = config.surface.influence_domain_adaptation;
-  extractor.extract(wanted ? front_trace() : FrontTrace());
+  extractor.extract(front_trace(), config.surface.influence_domain_adaptation);
 }
 
 void Simulation::State::collide(double dt) {

@@ -42,9 +42,12 @@ struct Simulation::State {
   double potential(const NodeField& x) const;
   static double offset(const OffsetField& offsets, const EdgeContactPoint& p);
   double contact_offset(const OffsetField& offsets) const;
-  FrontTrace front_trace() const;
+  FrontTrace front_trace();
+  bool holds(const EdgeContactPoint& p) const;
+  void extend(const EdgeContactPoint& last, int step, Trace& trace) const;
+  std::vector<EdgePart> held_parts() const;
+  double contact_spacing() const { return 0.5 * volume.lattice().spacing.minCoeff(); }
   Vec3 push() const;
-  double blade_distance() const;
   void take_wrench();
   bool immediate() const { return config.fracture.mode == FractureMode::kImmediate; }
 
@@ -68,11 +71,12 @@ struct Simulation::State {
   SweptTrail trail;
   CutSurface cut_surface;
   SurfaceExtractor extractor;
-  Pose motion = Pose::Identity();  // of the blade in this step, in T
-  Wrench wrench;                   // tissue on tool, in T, after the last solve
-  double cut_area = 0.0;           // m²
-  double blade_work = 0.0;         // J
-  double elapsed = 0.0;            // s, since the start
+  std::vector<std::pair<MaterialPoint, MaterialPoint>> held;  // neighbouring contact points on the trace
+  Pose motion = Pose::Identity();                             // of the blade in this step, in T
+  Wrench wrench;                                              // tissue on tool, in T, after the last solve
+  double cut_area = 0.0;                                      // m²
+  double blade_work = 0.0;                                    // J
+  double elapsed = 0.0;                                       // s, since the start
   bool reference_converged = true;
   double grip_step = 0.0;    // m, in this step
   double grip_travel = 0.0;  // m, since the reference was solved for

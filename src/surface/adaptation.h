@@ -6,10 +6,11 @@
 namespace cfem_cutting {
 
 /// Influence domain adaptation: virtual intersection points on the trace, in place of the former ones.
-void adapt(Contour& contour, const FrontTrace& trace);
+/// @param moves false: only marks the groups on the front
+void adapt(Contour& contour, const FrontTrace& trace, bool moves);
 
-/// Whether a cell holds something that the trace can place: skin or a cut's end.
-bool holds_crease(const DualCell& cell);
+/// Draws a virtual intersection point back into its cell.
+void retract(Contour& contour, int cell, int group);
 
 /// Keeps the virtual intersection points at cuts.
 void freeze_cut_ends(Contour& contour);

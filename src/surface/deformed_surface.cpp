@@ -25,13 +25,20 @@ void double_rim(const TissueSurface& surface, DeformedSurface& drawn) {
       for (int& v : drawn.triangles[t]) v = of_cut[v];
 }
 
+/// Where the edge holds a vertex that the deformation takes to p.
+Vec3 on_edge(const SurfaceVertex& vertex, const Polyline& front, const Vec3& p) {
+  if (vertex.edge_end == EdgeEnd::kHeel) return front.front();
+  if (vertex.edge_end == EdgeEnd::kTip) return front.back();
+  return project(front, p).point;
+}
+
 void place(const TissueSurface& surface, const CompositeMesh& mesh, const NodeField& x, const Polyline& front,
            DeformedSurface& drawn) {
   drawn.positions.resize(drawn.source.size());
   for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
     const SurfaceVertex& vertex = surface.vertices[v];
     const Vec3 p = mesh.embed(vertex.voxel, vertex.X).apply(x);
-    drawn.positions[v] = vertex.on_front && front.size() > 1 ? project(front, p).point : p;
+    drawn.positions[v] = vertex.on_front && front.size() > 1 ? on_edge(vertex, front, p) : p;
   }
   for (std::size_t v = surface.vertices.size(); v < drawn.source.size(); ++v)
     drawn.positions[v] = drawn.positions[drawn.source[v]];

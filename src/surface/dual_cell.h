@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "cfem_cutting/surface/tissue_surface.h"
 #include "cfem_cutting/volume/voxel_volume.h"
 
 namespace cfem_cutting {
@@ -35,8 +36,10 @@ struct Sheet {
 /// Sheets that face each other across severed links and hence share one position.
 struct SheetGroup {
   SideMask sides = 0;
-  bool skin = false;            ///< holds a surface link
-  bool severed = false;         ///< holds a severed link
+  bool skin = false;     ///< holds a surface link
+  bool severed = false;  ///< holds a severed link
+  int chain = -1;        ///< number in the chain along the front; neighbours have consecutive ones
+  EdgeEnd edge_end = EdgeEnd::kNone;
   bool cut_end = false;         ///< both sides of a severed link are in one sheet: the cut ends here
   Vec3 minimum = Vec3::Zero();  ///< m, of the error function
   std::optional<Vec3> frozen;   ///< m, a cut end's virtual intersection point that was kept

@@ -5,32 +5,11 @@
 namespace cfem_cutting {
 namespace {
 
-/// The axis square to the face between the i-th and the next of the cells around a link.
-int face_axis(int direction, int i) { return (direction / 2 + 1 + i % 2) % 3; }
-
-/// Whether a further arc of the face from cell a to cell b joins the same two sheets as the arc of `side`.
-bool arc_repeats(const DualCell& a, const DualCell& b, LocalSide side, int normal_axis) {
-  const auto in_b = [&](LocalSide s) { return 3 * (s / 3 ^ (1 << normal_axis)) + s % 3; };
-  const LocalSide end = a.arc_end(side, normal_axis);
-  for (LocalSide s = 0; s < kLocalSides; ++s) {
-    const bool in_face = s % 3 != normal_axis && ((s / 3 ^ side / 3) >> normal_axis & 1) == 0;
-    if (!in_face || s == side || s == end || !a.has_side(s)) continue;
-    if (a.sheet_of_side[s] == a.sheet_of_side[side] &&
-        b.sheet_of_side[in_b(s)] == b.sheet_of_side[in_b(side)])
-      return true;
-  }
-  return false;
-}
-
 /// A number for the end of an arc at a side, in a cell's face.
 std::int64_t arc_end_key(const DualCell& cell, LocalSide side, int normal_axis) {
   const int corner = side / 3;
   const std::int64_t link_side = kDirections * cell.voxel[corner] + direction_from(corner, side % 3);
   return kDirections * link_side + direction_from(corner, 3 - side % 3 - normal_axis);
-}
-
-bool same_sheet_across(const DualCell& cell, LocalSide side) {
-  return cell.sheet_of_side[side] == cell.sheet_of_side[across(side)];
 }
 
 /// Shape of a triangle, positive if it is counter-clockwise about an axis: twice its area over its longest
@@ -48,6 +27,8 @@ void Mesher::build(const Contour& contour) {
   surface_ = {};
   quads_.clear();
   anchors_.clear();
+  chain_.clear();
+  direction_.clear();
   midpoint_of_arc_.clear();
   std::array<int, 8> none;
   none.fill(-1);
@@ -59,44 +40,14 @@ void Mesher::build(const Contour& contour) {
   for (const LinkSide side : contour.sides()) add_polygon(contour, polygon_of(contour, side));
 }
 
-Mesher::Polygon Mesher::polygon_of(const Contour& contour, LinkSide side) const {
-  Polygon polygon{side / kDirections, side % kDirections, {}, {}, {}};
-  const std::array<Vec3i, 4> around = contour.cells_around(polygon.voxel, polygon.direction);
-  for (int i = 0; i < 4; ++i) {
-    const Vec3i corner = contour.volume().voxel(polygon.voxel).index - around[i];
-    polygon.cell[i] = contour.find(around[i]);
-    polygon.side[i] = 3 * (corner.x() + 2 * (corner.y() + 2 * corner.z())) + polygon.direction / 2;
-    polygon.sheet[i] = contour.cells()[polygon.cell[i]].sheet_of_side[polygon.side[i]];
-  }
-  return polygon;
-}
-
-/// A severed link with no severed neighbour isn't drawn: its sheets hold nothing but its two sides. Polygons
-/// with midpoints, and those that would share a diagonal with the link's other side, become fans.
 void Mesher::add_polygon(const Contour& contour, const Polygon& polygon) {
-  bool lone = true;
-  std::array<bool, 4> shared;
-  for (int i = 0; i < 4; ++i) {
-    const DualCell& cell = contour.cells()[polygon.cell[i]];
-    const SideMask both = SideMask{1} << polygon.side[i] | SideMask{1} << across(polygon.side[i]);
-    lone = lone && cell.sheets[polygon.sheet[i]].sides == both;
-    shared[i] = same_sheet_across(cell, polygon.side[i]);
-  }
-  if (lone) return;
-
+  if (polygon.lone) return;
   std::vector<int> rim;
   for (int i = 0; i < 4; ++i) {
-    const DualCell& cell = contour.cells()[polygon.cell[i]];
-    const DualCell& next = contour.cells()[polygon.cell[(i + 1) % 4]];
     rim.push_back(sheet_vertex(contour, polygon.cell[i], polygon.sheet[i]));
-    if (arc_repeats(cell, next, polygon.side[i], face_axis(polygon.direction, i)))
-      rim.push_back(midpoint(contour, polygon, i));
+    if (polygon.midpoint[i]) rim.push_back(midpoint(contour, polygon, i));
   }
-  const bool diagonal_shared = (shared[0] && shared[2]) || (shared[1] && shared[3]);
-  if (rim.size() == 4 && !diagonal_shared)
-    add_quad(contour, polygon, rim);
-  else
-    add_fan(contour, polygon, rim);
+  polygon.fan ? add_fan(contour, polygon, rim) : add_quad(contour, polygon, rim);
 }
 
 void Mesher::add_quad(const Contour& contour, const Polygon& polygon, const std::vector<int>& corners) {
@@ -145,6 +96,7 @@ int Mesher::midpoint(const Contour& contour, const Polygon& polygon, int i) {
 
 int Mesher::add_fixed_vertex(const Vec3& X, int voxel, const Vec3i& cell) {
   surface_.vertices.push_back({X, voxel, cell});
+  chain_.push_back(-1);
   anchors_.push_back({-1, -1});
   return static_cast<int>(surface_.vertices.size()) - 1;
 }
@@ -154,6 +106,7 @@ void Mesher::add_triangle(const Contour& contour, const Polygon& polygon, int a,
   const Voxel& voxel = contour.volume().voxel(polygon.voxel);
   surface_.triangles.push_back(polygon.direction % 2 ? std::array<int, 3>{a, b, c}
                                                      : std::array<int, 3>{a, c, b});
+  direction_.push_back(polygon.direction);
   surface_.cut.push_back(voxel.link[polygon.direction] == LinkState::kSevered ? 1 : 0);
   surface_.label.push_back(static_cast<std::uint8_t>(voxel.label));
 }
@@ -164,16 +117,32 @@ void Mesher::place(const Contour& contour, bool all) {
     if (anchors_[v].cell < 0) continue;
     SurfaceVertex& vertex = surface_.vertices[v];
     const SheetGroup& group = contour.cells()[anchors_[v].cell].groups[anchors_[v].group];
-    const bool on_front = group.adapted.has_value();
-    if (vertex.on_front == on_front && vertex.X == group.X()) continue;
+    vertex.cut_end = group.cut_end;
+    if (chain_[v] == group.chain && vertex.edge_end == group.edge_end && vertex.X == group.X()) continue;
     vertex.X = group.X();
-    vertex.on_front = on_front;
+    vertex.on_front = group.chain >= 0;
+    vertex.edge_end = group.edge_end;
+    chain_[v] = group.chain;
     moved[v] = true;
   }
   for (const Quad& quad : quads_) {
     const auto& [a, b, c, d] = quad.corners;
     if (moved[a] || moved[b] || moved[c] || moved[d]) split(quad);
   }
+}
+
+std::vector<Anchor> Mesher::turned() const {
+  std::vector<Anchor> anchors;
+  for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface_.triangles[t];
+    if (chain_[a] < 0 && chain_[b] < 0 && chain_[c] < 0) continue;
+    const Vec3 &A = surface_.vertices[a].X, &B = surface_.vertices[b].X, &C = surface_.vertices[c].X;
+    const double turn = shape(A, B, C, direction_[t] / 2);
+    if (direction_[t] % 2 ? turn > 0.0 : shape(A, C, B, direction_[t] / 2) > 0.0) continue;
+    for (const int v : {a, b, c})
+      if (chain_[v] >= 0) anchors.push_back(anchors_[v]);
+  }
+  return anchors;
 }
 
 void Mesher::split(const Quad& quad) {
@@ -197,7 +166,8 @@ bool Mesher::prefers_second_diagonal(const Quad& quad) const {
     return std::min(shape(p, q, r, axis), shape(p, r, s, axis));
   };
   const auto chain = [&](int i) {
-    return vertex(i).on_front && vertex(i + 2).on_front && !vertex(1 - i).on_front && !vertex(3 - i).on_front;
+    const int a = chain_[quad.corners[i]], b = chain_[quad.corners[i + 2]];
+    return a >= 0 && b >= 0 && std::abs(a - b) == 1;
   };
   const double first_shape = worst(0), second_shape = worst(1);
   if (chain(0) && first_shape > 0.0) return false;

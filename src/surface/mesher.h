@@ -3,9 +3,14 @@
 #include <unordered_map>
 
 #include "cfem_cutting/surface/tissue_surface.h"
-#include "contour.h"
+#include "polygon.h"
 
 namespace cfem_cutting {
+
+/// What a vertex' place follows.
+struct Anchor {
+  int cell, group;
+};
 
 /// Joins the sheets' vertices to triangles: a polygon for each link side.
 class Mesher {
@@ -16,28 +21,19 @@ class Mesher {
   /// Places the vertices and splits quads whose corners moved, or all.
   void place(const Contour& contour, bool all);
 
+  /// The vertices on the front of triangles that are turned or flat about their link.
+  std::vector<Anchor> turned() const;
+
   const TissueSurface& surface() const { return surface_; }
 
  private:
-  /// A side's link in the four cells around it, in the order of Contour::cells_around.
-  struct Polygon {
-    int voxel, direction;
-    std::array<int, 4> cell;
-    std::array<LocalSide, 4> side;
-    std::array<int, 4> sheet;
-  };
   /// Two triangles whose diagonal depends on the corners' places.
   struct Quad {
     std::array<int, 4> corners;  ///< counter-clockwise about +axis
     int direction;
     int first_triangle;
   };
-  /// What a vertex' place follows.
-  struct Anchor {
-    int cell, group;
-  };
 
-  Polygon polygon_of(const Contour& contour, LinkSide side) const;
   void add_polygon(const Contour& contour, const Polygon& polygon);
   void add_fan(const Contour& contour, const Polygon& polygon, const std::vector<int>& rim);
   void add_quad(const Contour& contour, const Polygon& polygon, const std::vector<int>& corners);
@@ -49,8 +45,10 @@ class Mesher {
   bool prefers_second_diagonal(const Quad& quad) const;
 
   TissueSurface surface_;
+  std::vector<int> direction_;  // per triangle: of its link
   std::vector<Quad> quads_;
   std::vector<Anchor> anchors_;                      // per vertex; fixed ones have cell −1
+  std::vector<int> chain_;                           // per vertex: SheetGroup::chain
   std::vector<std::array<int, 8>> vertex_of_sheet_;  // per cell, −1
   std::unordered_map<std::int64_t, int> midpoint_of_arc_;
 };

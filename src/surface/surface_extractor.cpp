@@ -1,6 +1,5 @@
 #include "adaptation.h"
 #include "cfem_cutting/surface/tissue_surface.h"
-#include "front_walk.h"
 #include "mesher.h"
 
 namespace cfem_cutting {
@@ -14,18 +13,34 @@ struct SurfaceExtractor::State {
   bool freeze_next = false;
 };
 
+namespace {
+
+/// Vertices at the ends of a trace and on detours leave their cells; where that turns a triangle, they stay.
+void unfold(Contour& contour, Mesher& mesher) {
+  constexpr int kTries = 3;
+  for (int i = 0; i < kTries; ++i) {
+    const std::vector<Anchor> turned = mesher.turned();
+    if (turned.empty()) return;
+    for (const Anchor& anchor : turned) retract(contour, anchor.cell, anchor.group);
+    mesher.place(contour, false);
+  }
+}
+
+}  // namespace
+
 SurfaceExtractor::SurfaceExtractor(const VoxelVolume& volume) : s_(std::make_unique<State>(volume)) {}
 
 SurfaceExtractor::~SurfaceExtractor() = default;
 
 const TissueSurface& SurfaceExtractor::surface() const { return s_->mesher.surface(); }
 
-const TissueSurface& SurfaceExtractor::extract(const FrontTrace& trace) {
+const TissueSurface& SurfaceExtractor::extract(const FrontTrace& trace, bool adapts) {
   const bool changed = s_->contour.update();
   if (changed || trace != s_->trace) {
-    adapt(s_->contour, trace);
+    adapt(s_->contour, trace, adapts);
     if (changed) s_->mesher.build(s_->contour);
     s_->mesher.place(s_->contour, changed);
+    unfold(s_->contour, s_->mesher);
     s_->trace = trace;
   }
   if (s_->freeze_next) freeze_cut_ends(s_->contour);
@@ -36,11 +51,6 @@ const TissueSurface& SurfaceExtractor::extract(const FrontTrace& trace) {
 void SurfaceExtractor::freeze() {
   freeze_cut_ends(s_->contour);
   s_->freeze_next = true;
-}
-
-bool SurfaceExtractor::reaches(const Vec3& X) const {
-  const int cell = s_->contour.find(dual_cell_at(s_->contour.volume().lattice(), X));
-  return cell >= 0 && holds_crease(s_->contour.cells()[cell]);
 }
 
 TriangleMesh TissueSurface::rest() const {

@@ -43,7 +43,8 @@ void Cutter::sever() {
     refresh_reference();
     extractor_.freeze();
   }
-  extractor_.extract(tracker_->runs_inside());
+  const std::vector<Polyline> runs = tracker_->runs_inside();
+  extractor_.extract(FrontTrace(runs.begin(), runs.end()));
 }
 
 void Cutter::lift() { extractor_.extract({}); }

@@ -50,20 +50,6 @@ bool is_one_fan(const Corner* begin, const Corner* end) {
   return steps == end - begin;
 }
 
-/// The sense of three cells around a link, or of the triangle's corners, about an axis.
-double turn(const Vec3& a, const Vec3& b, const Vec3& c, int axis) { return (b - a).cross(c - a)[axis]; }
-
-/// Whether a triangle whose corners lie in three cells around one link turns about it other than the cells
-/// do.
-bool is_flipped(const SurfaceVertex& a, const SurfaceVertex& b, const SurfaceVertex& c) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (a.cell[axis] != b.cell[axis] || a.cell[axis] != c.cell[axis]) continue;
-    const double cells = turn(a.cell.cast<double>(), b.cell.cast<double>(), c.cell.cast<double>(), axis);
-    if (cells != 0.0) return cells * turn(a.X, b.X, c.X, axis) < 0.0;
-  }
-  return false;
-}
-
 double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto angle = [](const Vec3& u, const Vec3& v) { return std::atan2(u.cross(v).norm(), u.dot(v)); };
   return std::min({angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)});
@@ -112,9 +98,9 @@ SurfaceFigures measure(const TissueSurface& surface) {
         std::max({(b.X - a.X).squaredNorm(), (c.X - b.X).squaredNorm(), (a.X - c.X).squaredNorm()});
     ++figures.triangles;
     figures.without_area += !((b.X - a.X).cross(c.X - a.X).norm() > 1e-9 * longest);
-    figures.flipped += is_flipped(a, b, c);
     figures.needles += !(smallest_angle(a.X, b.X, c.X) >= 5.0 * EIGEN_PI / 180.0);
   }
+  figures.flipped = count_flipped(surface);
   return figures;
 }
 

@@ -25,7 +25,4 @@ double signed_volume(const TissueSurface& surface);
 
 SurfaceFigures measure(const TissueSurface& surface);
 
-/// Triangles that meet others in more than a common corner or edge; the faces of a closed cut count as one.
-std::int64_t count_self_crossings(const TissueSurface& surface);
-
 }  // namespace cfem_cutting::random_cuts

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "cfem_cutting/geometry/self_crossings.h"
 #include "link_oracle.h"
 
 namespace cfem_cutting::random_cuts {
@@ -34,7 +35,7 @@ class Trial {
     check_volumes();
     outcome_.links_severed = cutter_.volume().severed_count();
     outcome_.surface = measure(cutter_.surface());
-    if (options_.self_crossings) outcome_.surface.crossing = count_self_crossings(cutter_.surface());
+    if (options_.self_crossings) outcome_.surface.crossing = count_self_crossings(cutter_.surface().rest());
     return std::move(outcome_);
   }
 

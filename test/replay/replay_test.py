@@ -33,6 +33,18 @@ def write_stroke(path, bottom, seconds=3.0, rate=50):
             file.write("%.9g,-0.01,0.0513,%.9g,0,0,0,1\n" % (i / rate, 0.053 + (bottom - 0.053) * i / count))
 
 
+def write_path(path, waypoints, speed=0.03, rate=100):
+    """A tool that is not turned, along waypoints (m) at a speed (m/s)."""
+    points = [waypoints[0]]
+    for a, b in zip(waypoints, waypoints[1:]):
+        count = max(1, round(sum((q - p) ** 2 for p, q in zip(a, b)) ** 0.5 / speed * rate))
+        points += [[p + (q - p) * (i + 1) / count for p, q in zip(a, b)] for i in range(count)]
+    with open(path, "w") as file:
+        file.write("t,x,y,z,qx,qy,qz,qw\n")
+        for i, point in enumerate(points):
+            file.write("%.9g,%.12g,%.12g,%.12g,0,0,0,1\n" % (i / rate, *point))
+
+
 class ReplayTest(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -100,6 +112,24 @@ class Cuts(ReplayTest):
             self.assertGreaterEqual(summary["fracture_events"], 3, config)
             self.assertGreater(summary["links_severed"], 10, config)
             self.assertTrue(summary["surface"]["closed"] and summary["surface"]["manifold"], config)
+
+    def test_crease_and_cut_end_are_on_the_edge_on_liver_and_bunny(self):
+        # Straight edges in the tissue's frame: across the liver's front, and with the tip in the bunny's back.
+        across = ["blade.edge=[[0,0,0],[0,0.0199,0.199]]", "blade.back=[0,-1,0]"]
+        tip = ["blade.edge=[[0,0,0],[0,-0.01582,0.0231]]", "blade.back=[0,0.825,0.565]"]
+        cuts = (("liver", 0.008, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
+                ("liver", 0.004, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
+                ("bunny", 0.004, tip, [(0.02, 0.036, 0.012), (0.02, 0.018, 0.01), (0.02, 0.017, -0.04)]))
+        for config, voxel, blade, waypoints in cuts:
+            write_path(self.path("poses.csv"), waypoints)
+            settings = [o for s in blade + ["tissue.voxel_size=%g" % voxel] for o in ("--set", s)]
+            summary = self.replay("%s%g" % (config, voxel), "--poses", self.path("poses.csv"), *settings,
+                                  config=os.path.join(PACKAGE, "config", config + ".yaml"))
+            for part in ("crease", "cut_end", "vertices"):
+                self.assertGreater(summary["front"][part]["samples"], 100, (config, voxel, part))
+                self.assertLess(summary["front"][part]["max_m"], 0.01 * voxel, (config, voxel, part))
+            self.assertEqual(summary["surface"]["flipped"] + summary["surface"]["degenerate"], 0)
+            self.assertLess(summary["cut_faces"]["mean_m"], 0.1 * voxel)
 
     @needs_bags
     def test_same_bag_gives_identical_files_on_any_number_of_threads(self):

@@ -171,14 +171,6 @@ TEST(Simulation, immediate_cut_does_not_depend_on_the_pose_rate) {
   EXPECT_EQ(cuts[0], cuts[2]);
 }
 
-TEST(Simulation, crease_and_cut_end_follow_the_edge) {
-  Simulation simulation = make_simulation(box_config());
-  double largest = 0.0;
-  drive(simulation, {at(0.0321, 0.016, 0.036), at(0.0321, 0.016, 0.006)}, 0.05,
-        [&](const StepReport& report) { largest = std::max(largest, report.blade_distance); });
-  EXPECT_LT(largest, 0.05 * 0.004);
-}
-
 TEST(Simulation, wrench_balances_the_reactions_in_equilibrium) {
   SimulationConfig config = box_config();
   config.dynamics.quasi_static = true;

@@ -67,20 +67,7 @@ TEST(SkinTrace, of_one_point_carries_one_vertex) {
   const VoxelVolume volume = box_volume({8, 8, 4});
   SurfaceExtractor extractor(volume);
   const Vec3 tip(3.7, 4.2, 4.0);
-  EXPECT_EQ(on_front(extractor.extract({{tip}})), std::vector<Vec3>{tip});
-}
-
-TEST(SurfaceExtractor, reaches_skin_and_cut_ends_not_the_inside) {
-  VoxelVolume volume = box_volume({8, 6, 6});
-  SurfaceExtractor extractor(volume);
-  extractor.extract({});
-  const Vec3 inside(4.2, 3.0, 2.8);
-  EXPECT_TRUE(extractor.reaches({4.2, 3.0, 5.9}));
-  EXPECT_FALSE(extractor.reaches(inside));
-  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()}, [&](const Vec3& X) { return X.z() > inside.z(); });
-  extractor.extract({});
-  EXPECT_TRUE(extractor.reaches(inside));
-  EXPECT_FALSE(extractor.reaches({4.2, 3.0, 4.3}));  // both faces of the open cut: no end
+  EXPECT_EQ(on_front(extractor.extract({Polyline{tip}})), std::vector<Vec3>{tip});
 }
 
 TEST(CutEnd, lies_on_the_front_and_stays_when_frozen) {

@@ -11,7 +11,9 @@ namespace cfem_cutting {
 /// Figures over a run, gathered step by step.
 class RunStatistics {
  public:
-  void add(const StepReport& report);
+  void add(const StepReport& report, const FrontFidelity& fidelity);
+
+  FrontFidelity front;
 
   int steps = 0;
   int fracture_events = 0;
@@ -22,14 +24,11 @@ class RunStatistics {
   int max_iterations = 0;
   int unconverged_steps = 0;
   int steps_with_inverted_elements = 0;
-  double max_blade_distance = 0.0;     ///< m
-  double mean_force() const;           ///< N, over steps in contact
-  double mean_blade_distance() const;  ///< m, over steps in contact
+  double mean_force() const;  ///< N, over steps in contact
 
  private:
   int steps_in_contact_ = 0;
   double force_sum_ = 0.0;
-  double distance_sum_ = 0.0;
 };
 
 /// Writes summary.json; its surface figures are those of the undeformed surface.

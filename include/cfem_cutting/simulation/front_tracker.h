@@ -23,6 +23,13 @@ struct FrontMotion {
   std::vector<Touch> touches;  ///< along the edge
 };
 
+/// Where the edge, followed from a place on it, ends or leaves the tissue.
+struct FrontEnd {
+  Vec3 X;           ///< m, material, the last point in tissue
+  bool edge_ends;   ///< in tissue, at X
+  Vec3 X_at_start;  ///< m, of the front at the place where it starts
+};
+
 /// Follows the blade's front in world and material space. Front points, once pulled back, are kept as
 /// material points: a sweep starts exactly where the last one ended, so no link slips through the seam.
 class FrontTracker {
@@ -51,11 +58,21 @@ class FrontTracker {
   /// Points of the front inside tissue, where they are now.
   std::vector<Touch> inside() const;
 
+  /// Follows the edge towards its heel (step −1) or tip (1) as long as it is in tissue.
+  /// @param along m, arc length of the start
+  /// @return nothing if the start is not in tissue
+  std::optional<FrontEnd> end_beyond(double along, int step, const VoxelVolume& volume) const;
+
+  /// Unit, of the front in material space at a place on it, towards its heel (step −1) or tip (1); zero where
+  /// it is far from tissue.
+  Vec3 material_tangent(double along, int step) const;
+
   /// The front's runs inside tissue, in material space.
   std::vector<Polyline> runs_inside() const;
 
  private:
   std::vector<double> arc_lengths() const;
+  int segment_at(double along) const;
   MaterialFront pull_back(const Front& front, const InverseMap& reference) const;
 
   Blade blade_;

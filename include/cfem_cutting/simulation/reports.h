@@ -62,8 +62,6 @@ struct StepReport {
   Wrench spatial;           ///< tissue on tool, in T, moment about T's origin
   Wrench body;              ///< tissue on tool, in the tool frame B, moment about B's origin
   std::vector<ContactForce> contacts;
-  double blade_distance =
-      0.0;  ///< m, largest distance of the drawn crease or cut end from the edge inside tissue
   std::vector<FractureEvent> events;  ///< in this step
   std::vector<StageTime> stages;
 };

@@ -8,7 +8,7 @@
 #include "cfem_cutting/blade/blade.h"
 #include "cfem_cutting/simulation/config.h"
 #include "cfem_cutting/simulation/reports.h"
-#include "cfem_cutting/surface/tissue_surface.h"
+#include "cfem_cutting/surface/front_fidelity.h"
 
 namespace cfem_cutting {
 
@@ -47,6 +47,11 @@ class Simulation {
 
   /// The surface as drawn now.
   DeformedSurface deformed_surface() const;
+  /// How close crease and cut end are to the edge now; nothing where the blade touches no tissue.
+  FrontFidelity front_fidelity() const;
+  /// Distance of the cut faces from the swept surface, undeformed, at their triangles' corners and centres;
+  /// what is farther than a voxel counts as a voxel.
+  Distances cut_face_distances() const;
   /// Per vertex of a surface drawn now: displacement since the unit's reference state, m.
   std::vector<double> offsets(const DeformedSurface& surface) const;
   /// Displacements of the configured probes, m.

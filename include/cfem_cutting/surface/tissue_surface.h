@@ -10,13 +10,18 @@
 
 namespace cfem_cutting {
 
+/// Ends of the blade's edge that can lie in tissue.
+enum class EdgeEnd : std::uint8_t { kNone, kHeel, kTip };
+
 /// A vertex of the tissue's surface. It follows the element of its voxel.
 struct SurfaceVertex {
   Vec3 X;      ///< m, material position
   int voxel;   ///< a linked voxel of the component in its dual cell
   Vec3i cell;  ///< dual cell: the cube between the centres of voxels cell … cell + (1, 1, 1)
   bool on_front =
-      false;  ///< a virtual intersection point holds it: drawn exactly on the blade's edge while bound
+      false;             ///< the front passes its cell: with adaptation it lies on the trace, and on the edge
+  bool cut_end = false;  ///< a cut ends in its sheet
+  EdgeEnd edge_end = EdgeEnd::kNone;  ///< the edge ends here
 };
 
 /// Surface of a voxel volume in material space.
@@ -28,11 +33,23 @@ struct TissueSurface {
   TriangleMesh rest() const;                  ///< the surface in material space
 };
 
+/// A curve of material points, m, on which the surface meets the edge: the trace of the front on the skin, or
+/// the cut's end; from heel to tip.
+struct Trace {
+  Trace() = default;
+  Trace(Polyline points_in) : points(std::move(points_in)) {}
+  bool operator==(const Trace& other) const {
+    return points == other.points && heel == other.heel && tip == other.tip;
+  }
+  Polyline points;
+  bool heel = false;  ///< it begins at the edge's heel
+  bool tip = false;   ///< it ends at the edge's tip
+};
+
 /// Virtual intersection points: positions that the influence domain adaptation puts in place of the error
-/// function's minimum, by the curve of material points (the trace of the front on the skin, or the cut's end)
-/// that runs through the dual cells. Pieces of the curve where the edge is out of tissue are separate
-/// polylines.
-using FrontTrace = std::vector<Polyline>;
+/// function's minimum, by the traces that run through the dual cells. One for each part of the edge in
+/// tissue.
+using FrontTrace = std::vector<Trace>;
 
 /// Manifold dual contouring (after Ju et al. 2002; Schaefer, Ju and Warren 2007).
 class SurfaceExtractor {
@@ -42,9 +59,10 @@ class SurfaceExtractor {
   ~SurfaceExtractor();
 
   /// Contours again around links severed since the last call, and puts the vertices of the cells that the
-  /// trace runs through on it (projected along the shortest way). An empty trace: no adaptation. Cut ends
-  /// that were put on an earlier trace by `freeze` stay there.
-  const TissueSurface& extract(const FrontTrace& trace);
+  /// trace runs through on it (projected along the shortest way). Cut ends that were put on an earlier trace
+  /// by `freeze` stay there.
+  /// @param adapts false: the vertices are only marked, and stay where dual contouring has them
+  const TissueSurface& extract(const FrontTrace& trace, bool adapts = true);
 
   /// Keeps the present virtual intersection points of sheets in which a cut ends when the front moves on, and
   /// those that the next `extract` makes: a cut ends where the blade was, until the cut goes on through the
@@ -52,10 +70,6 @@ class SurfaceExtractor {
   void freeze();
 
   const TissueSurface& surface() const;
-
-  /// Whether the dual cell of a material point holds skin or a cut's end: what the adaptation can place
-  /// there. (A blade in uncut tissue, or in a stab that is narrower than a voxel, has no surface around it.)
-  bool reaches(const Vec3& X) const;
 
  private:
   struct State;
@@ -88,5 +102,9 @@ struct SurfaceQuality {
   int needles = 0;      ///< triangles with an angle under 5°
 };
 SurfaceQuality assess(const TriangleMesh& mesh);
+
+/// Triangles, undeformed, whose corners lie in three cells around one link and that turn about it other than
+/// the cells do.
+int count_flipped(const TissueSurface& surface);
 
 }  // namespace cfem_cutting

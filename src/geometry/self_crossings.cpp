@@ -1,13 +1,13 @@
+#include "cfem_cutting/geometry/self_crossings.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
-#include "surface_check.h"
-
-namespace cfem_cutting::random_cuts {
+namespace cfem_cutting {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -20,16 +20,16 @@ struct Soup {
   std::vector<Point> places;
   std::vector<Triangle> triangles;
 
-  explicit Soup(const TissueSurface& surface) {
+  explicit Soup(const TriangleMesh& mesh) {
     std::map<Point, int> place_at;
     std::vector<int> place;
-    for (const SurfaceVertex& v : surface.vertices) {
-      const auto [at, fresh] = place_at.emplace(Point(v.X.x(), v.X.y(), v.X.z()), places.size());
+    for (const Vec3& X : mesh.vertices) {
+      const auto [at, fresh] = place_at.emplace(Point(X.x(), X.y(), X.z()), places.size());
       if (fresh) places.push_back(at->first);
       place.push_back(at->second);
     }
     std::set<Triangle> known;
-    for (const auto& [a, b, c] : surface.triangles) {
+    for (const auto& [a, b, c] : mesh.triangles) {
       const Triangle t{place[a], place[b], place[c]};
       Triangle sorted = t;
       std::sort(sorted.begin(), sorted.end());
@@ -65,19 +65,28 @@ bool cross(const Soup& soup, int t, int u) {
          CGAL::coplanar_orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) == CGAL::POSITIVE;
 }
 
-}  // namespace
-
-std::int64_t count_self_crossings(const TissueSurface& surface) {
-  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
-  const Soup soup(surface);
-  std::vector<Box> boxes;
-  for (int t = 0; t < static_cast<int>(soup.triangles.size()); ++t)
-    boxes.emplace_back(soup.triangle(t).bbox(), t);
-  std::set<int> crossing;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-    if (cross(soup, a.info(), b.info())) crossing.insert({a.info(), b.info()});
-  });
-  return static_cast<std::int64_t>(crossing.size());
+/// Calls visit(t, u) for triangles whose bounding boxes overlap: a sweep along x.
+template <typename Visit>
+void for_overlapping(const Soup& soup, Visit visit) {
+  std::vector<CGAL::Bbox_3> boxes;
+  for (int t = 0; t < static_cast<int>(soup.triangles.size()); ++t) boxes.push_back(soup.triangle(t).bbox());
+  std::vector<int> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int t, int u) { return boxes[t].xmin() < boxes[u].xmin(); });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].xmin() <= boxes[order[i]].xmax(); ++j)
+      if (CGAL::do_overlap(boxes[order[i]], boxes[order[j]])) visit(order[i], order[j]);
 }
 
-}  // namespace cfem_cutting::random_cuts
+}  // namespace
+
+int count_self_crossings(const TriangleMesh& mesh) {
+  const Soup soup(mesh);
+  std::set<int> crossing;
+  for_overlapping(soup, [&](int t, int u) {
+    if (cross(soup, t, u)) crossing.insert({t, u});
+  });
+  return static_cast<int>(crossing.size());
+}
+
+}  // namespace cfem_cutting

@@ -1,0 +1,84 @@
+// The material curve on which the surface meets the blade's edge.
+
+#include "simulation_state.h"
+
+namespace cfem_cutting {
+namespace {
+
+/// The part of a segment from a point in tissue on that is in tissue, tested in steps of 1/16.
+Vec3 go_in_tissue(const VoxelVolume& volume, const Vec3& from, const Vec3& way) {
+  constexpr int kSteps = 16;
+  Vec3 at = from;
+  for (int i = 1; i <= kSteps; ++i) {
+    const Vec3 next = from + way * (static_cast<double>(i) / kSteps);
+    if (tissue_voxel_at(volume, next) < 0) return find_entry(volume, next, at).X;
+    at = next;
+  }
+  return at;
+}
+
+}  // namespace
+
+/// The blade pushes at it; or it would if the tissue had come to rest, as after a fracture.
+bool Simulation::State::holds(const EdgeContactPoint& p) const {
+  if (p.active) return true;
+  const double least = -1e-3 * volume.lattice().spacing.minCoeff();
+  const Vec3 x_ref = model.mesh().embed(p.voxel, p.X).apply(reference);
+  return push().dot(project(tracker.front().points, x_ref).point - x_ref) >= least;
+}
+
+/// The trace goes on from a contact point to where the edge ends or leaves the tissue: there the front, or
+/// the skin or cut's end that it has pushed in as far as at the contact point; and straight on as long as
+/// there is tissue, which in motion may reach farther along the edge than at rest.
+void Simulation::State::extend(const EdgeContactPoint& last, int step, Trace& trace) const {
+  const std::optional<FrontEnd> end = tracker.end_beyond(last.along, step, volume);
+  Vec3 X = end ? go_in_tissue(volume, end->X, last.X - end->X_at_start) : last.X;
+  (step > 0 ? trace.tip : trace.heel) = end && end->edge_ends;
+  if ((!end || !end->edge_ends) && tissue_voxel_at(volume, X) >= 0)
+    X = go_in_tissue(volume, X, 2.0 * contact_spacing() * tracker.material_tangent(last.along, step));
+  if ((X - last.X).norm() > 1e-6 * volume.lattice().spacing.minCoeff()) trace.points.push_back(X);
+}
+
+FrontTrace Simulation::State::front_trace() {
+  held.clear();
+  if (immediate()) {
+    const std::vector<Polyline> runs = tracker.runs_inside();
+    return {runs.begin(), runs.end()};
+  }
+  FrontTrace trace;
+  const EdgeContactPoint* last = nullptr;
+  const auto close = [&] {
+    if (last) extend(*last, 1, trace.back());
+    last = nullptr;
+  };
+  for (const EdgeContactPoint& p : contact.points()) {
+    if (last && (!holds(p) || p.along - last->along >= 3.0 * contact_spacing())) close();
+    if (!holds(p)) continue;
+    if (last) {
+      held.push_back({{last->X, last->voxel}, {p.X, p.voxel}});
+    } else {
+      trace.emplace_back();
+      extend(p, -1, trace.back());
+    }
+    trace.back().points.push_back(p.X);
+    last = &p;
+  }
+  close();
+  return trace;
+}
+
+/// Where the edge lies between contact points on the trace now.
+std::vector<EdgePart> Simulation::State::held_parts() const {
+  const Polyline& edge = tracker.front().points;
+  const auto along = [&](const MaterialPoint& p) {
+    const PolylineProjection at = project(edge, model.mesh().embed(p.voxel, p.X).apply(elastic.x));
+    double length = (at.point - edge[at.segment]).norm();
+    for (int i = 0; i < at.segment; ++i) length += (edge[i + 1] - edge[i]).norm();
+    return length;
+  };
+  std::vector<EdgePart> parts;
+  for (const auto& [a, b] : held) parts.push_back({along(a), along(b)});
+  return parts;
+}
+
+}  // namespace cfem_cutting

@@ -1,0 +1,259 @@
+#include "front_chain.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "cfem_cutting/geometry/polyline.h"
+#include "front_walk.h"
+#include "polygon.h"
+
+namespace cfem_cutting {
+namespace {
+
+// What a chain costs, in voxel edges of stretch.
+constexpr double kShortPiece = 0.1;  // of a voxel: shorter pieces of the trace would give needles
+constexpr double kDetour = 0.3;      // for a vertex whose cell the trace does not pass
+constexpr double kBreak = 3.0;       // for vertices that nothing joins
+constexpr double kUncovered = 5.0;   // for each voxel of the trace's length, where one vertex stands for all
+constexpr double kNearest = 0.02;    // of a voxel, between vertices
+
+/// How far a vertex may be moved along the trace to its end, in voxels.
+constexpr double kReach = 2.0;
+
+/// A group that may become part of the chain.
+struct Node {
+  int cell = -1, group = -1;
+  int piece = 0;          // of the walk, the nearest
+  bool on_walk = false;   // the piece runs through the cell
+  Vec3 X = Vec3::Zero();  // m, on the trace
+  double along = 0.0;     // m, on the trace
+  double cost = 0.0;
+  double start = 0.0;  // of the chain's part so far if it begins here
+  // Of the best chain of two or more that ends here:
+  double total = std::numeric_limits<double>::infinity();
+  int before = -1;
+  bool continues = false;
+
+  bool begins() const { return start <= total; }
+  double best() const { return std::min(start, total); }
+};
+
+class ChainFinder {
+ public:
+  ChainFinder(const Contour& contour, const Trace& trace)
+      : contour_(contour),
+        trace_(trace),
+        h_(contour.volume().lattice().spacing.minCoeff()),
+        walk_(walk_dual_cells(contour.volume().lattice(), trace.points)) {
+    double from = 0.0;
+    for (const FrontPiece& piece : walk_) {
+      from_.push_back(from);
+      from += piece.length;
+    }
+    from_.push_back(from);
+  }
+
+  std::vector<ChainLink> find() {
+    add_nodes_on_walk();
+    add_nodes_beside();
+    std::stable_sort(nodes_.begin(), nodes_.end(),
+                     [](const Node& a, const Node& b) { return a.along < b.along; });
+    join_nodes();
+    return chain_to(best_end());
+  }
+
+ private:
+  /// Of a cell's groups those where a cut ends, else those with skin.
+  std::vector<int> eligible(const DualCell& cell) const {
+    std::vector<int> groups;
+    for (const bool cut_end : {true, false}) {
+      for (std::size_t g = 0; g < cell.groups.size(); ++g)
+        if (cut_end ? cell.groups[g].cut_end : cell.groups[g].skin) groups.push_back(static_cast<int>(g));
+      if (!groups.empty()) break;
+    }
+    return groups;
+  }
+
+  void add_nodes_on_walk() {
+    passable_.assign(walk_.size(), false);
+    for (std::size_t i = 0; i < walk_.size(); ++i) {
+      on_walk_.insert(key(walk_[i].cell));
+      const int c = contour_.find(walk_[i].cell);
+      if (c < 0) continue;
+      const DualCell& cell = contour_.cells()[c];
+      const Box room = room_in_cell(contour_.volume().lattice(), cell.index);
+      for (const int group : eligible(cell)) {
+        const Vec3 X = project_within(walk_[i], cell.groups[group].minimum, room);
+        const double stretch = (X - cell.groups[group].minimum).norm() / h_;
+        const double shortness = std::max(0.0, 1.0 - walk_[i].length / (kShortPiece * h_));
+        add(c, group, i, true, X, 0.01 * stretch * stretch + kShortPiece * shortness);
+        passable_[i] = true;
+      }
+    }
+  }
+
+  /// The cells around those that the trace passes.
+  void add_nodes_beside() {
+    std::map<std::array<int, 3>, std::pair<double, Node>> best;  // by cell and group
+    for (std::size_t i = 0; i < walk_.size(); ++i)
+      for (int n = 0; n < 27; ++n) {
+        const Vec3i index = walk_[i].cell + Vec3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+        const int c = on_walk_.count(key(index)) > 0 ? -1 : contour_.find(index);
+        if (c < 0) continue;
+        for (const int group : eligible(contour_.cells()[c])) consider(c, group, i, best);
+      }
+    for (const auto& entry : best) nodes_.push_back(entry.second.second);
+  }
+
+  void consider(int c, int group, std::size_t piece,
+                std::map<std::array<int, 3>, std::pair<double, Node>>& best) const {
+    const Vec3& minimum = contour_.cells()[c].groups[group].minimum;
+    const Polyline& points = walk_[piece].points;
+    const Vec3 X = points.size() == 1 ? points[0] : project(points, minimum).point;
+    const double stretch = (X - minimum).norm() / h_;
+    const auto [at, fresh] = best.try_emplace({c, group, 0}, stretch, Node{});
+    if (!fresh && at->second.first <= stretch) return;
+    at->second = {stretch, make(c, group, piece, false, X, kDetour + stretch * stretch)};
+  }
+
+  Node make(int cell, int group, std::size_t piece, bool on_walk, const Vec3& X, double cost) const {
+    Node node;
+    node.cell = cell;
+    node.group = group;
+    node.piece = static_cast<int>(piece);
+    node.on_walk = on_walk;
+    node.X = X;
+    node.along = from_[piece] + along_in(walk_[piece].points, X);
+    node.cost = cost;
+    return node;
+  }
+
+  void add(int cell, int group, std::size_t piece, bool on_walk, const Vec3& X, double cost) {
+    nodes_.push_back(make(cell, group, piece, on_walk, X, cost));
+  }
+
+  static double along_in(const Polyline& points, const Vec3& X) {
+    if (points.size() < 2) return 0.0;
+    const PolylineProjection at = project(points, X);
+    double along = (at.point - points[at.segment]).norm();
+    for (int i = 0; i < at.segment; ++i) along += (points[i + 1] - points[i]).norm();
+    return along;
+  }
+
+  /// Edges and diagonals of the surface between nodes.
+  void join_nodes() {
+    joined_.assign(nodes_.size(), {});
+    std::map<std::pair<int, int>, std::vector<int>> nodes_of;
+    std::set<LinkSide> sides;
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      nodes_of[{nodes_[n].cell, nodes_[n].group}].push_back(static_cast<int>(n));
+      const DualCell& cell = contour_.cells()[nodes_[n].cell];
+      for (LocalSide s = 0; s < kLocalSides; ++s)
+        if (cell.has_side(s) && cell.sheets[cell.sheet_of_side[s]].group == nodes_[n].group)
+          sides.insert(kDirections * cell.voxel[s / 3] + direction_from(s / 3, s % 3));
+    }
+    const auto join = [&](const Polygon& p, int i, int j) {
+      const auto a = nodes_of.find({p.cell[i], p.group(contour_, i)});
+      const auto b = nodes_of.find({p.cell[j], p.group(contour_, j)});
+      if (a == nodes_of.end() || b == nodes_of.end()) return;
+      for (const int m : a->second)
+        for (const int n : b->second) joined_[std::max(m, n)].push_back(std::min(m, n));
+    };
+    for (const LinkSide side : sides) {
+      const Polygon polygon = polygon_of(contour_, side);
+      if (polygon.lone) continue;
+      for (int i = 0; i < 4; ++i)
+        if (!polygon.midpoint[i]) join(polygon, i, (i + 1) % 4);
+      for (const int i : {0, 1})
+        if (!polygon.fan) join(polygon, i, i + 2);
+    }
+  }
+
+  /// Lengths of pieces between two that could have had a vertex.
+  double left_out(int first, int last) const {
+    double length = 0.0;
+    for (int i = first; i < last; ++i)
+      if (passable_[i]) length += walk_[i].length;
+    return length / h_;
+  }
+
+  /// Dynamic programming: nodes ascend along the trace, and so do chains.
+  int best_end() {
+    int best = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int n = 0; n < static_cast<int>(nodes_.size()); ++n) {
+      Node& node = nodes_[n];
+      node.start = node.cost + left_out(0, node.piece) + 0.5 * node.along / h_;
+      for (const int m : joined_[n]) follow(m, n, 0.0, true);
+      for (int m = 0; m < n; ++m) follow(m, n, kBreak + (node.along - nodes_[m].along) / h_, false);
+      const int last = static_cast<int>(walk_.size());
+      const double tail = left_out(node.piece + 1, last) + 0.5 * (from_.back() - node.along) / h_;
+      const double alone = node.start + kUncovered * from_.back() / h_;
+      const double total = tail + std::min(node.total, alone);
+      if (total >= least) continue;
+      best = n;
+      least = total;
+      alone_ = alone < node.total;
+    }
+    return best;
+  }
+
+  void follow(int m, int n, double cost, bool continues) {
+    const Node& before = nodes_[m];
+    Node& node = nodes_[n];
+    if (node.along - before.along < kNearest * h_) return;
+    if (before.cell == node.cell && before.group == node.group) return;
+    const double total = before.best() + node.cost + cost + left_out(before.piece + 1, node.piece);
+    if (total >= node.total) return;
+    node.total = total;
+    node.before = m;
+    node.continues = continues;
+  }
+
+  static void put_at_end(ChainLink& link, const Vec3& X, EdgeEnd edge_end) {
+    link.X = X;
+    link.edge_end = edge_end;
+  }
+
+  std::vector<ChainLink> chain_to(int end) const {
+    std::vector<ChainLink> chain;
+    if (end < 0) return chain;
+    int first = end;
+    for (bool begins = alone_;; first = nodes_[first].before, begins = nodes_[first].begins()) {
+      const Node& node = nodes_[first];
+      chain.push_back({node.cell, node.group, node.X, EdgeEnd::kNone, !begins && node.continues});
+      if (begins) break;
+    }
+    const double head = nodes_[first].along, tail = from_.back() - nodes_[end].along;
+    const bool short_tail = tail < kReach * h_ && (chain.size() > 1 || tail <= head);
+    if (short_tail)
+      put_at_end(chain.front(), trace_.points.back(), trace_.tip ? EdgeEnd::kTip : EdgeEnd::kNone);
+    if (head < kReach * h_ && (chain.size() > 1 || !short_tail))
+      put_at_end(chain.back(), trace_.points.front(), trace_.heel ? EdgeEnd::kHeel : EdgeEnd::kNone);
+    std::reverse(chain.begin(), chain.end());
+    return chain;
+  }
+
+  static std::array<int, 3> key(const Vec3i& index) { return {index.x(), index.y(), index.z()}; }
+
+  const Contour& contour_;
+  const Trace& trace_;
+  double h_;
+  std::vector<FrontPiece> walk_;
+  std::vector<double> from_;  // m, along the trace, where each piece begins; and the end
+  std::vector<bool> passable_;
+  std::set<std::array<int, 3>> on_walk_;
+  std::vector<Node> nodes_;
+  bool alone_ = false;                    // the chain is a single vertex
+  std::vector<std::vector<int>> joined_;  // nodes before
+};
+
+}  // namespace
+
+std::vector<ChainLink> find_chain(const Contour& contour, const Trace& trace) {
+  return ChainFinder(contour, trace).find();
+}
+
+}  // namespace cfem_cutting

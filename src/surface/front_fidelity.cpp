@@ -1,0 +1,135 @@
+#include "cfem_cutting/surface/front_fidelity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cfem_cutting {
+namespace {
+
+constexpr double kSample = 0.125;   // of a voxel, along the edge
+constexpr double kOnChain = 0.005;  // of a voxel
+
+/// An edge of the surface along the front.
+struct ChainEdge {
+  Vec3 a, b;
+  bool cut_end;
+};
+
+std::vector<ChainEdge> find_chain(const TissueSurface& surface, const DeformedSurface& drawn) {
+  std::vector<ChainEdge> chain;
+  const auto vertex = [&](int v) -> const SurfaceVertex& { return surface.vertices[drawn.source[v]]; };
+  for (const auto& triangle : drawn.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const int a = triangle[i], b = triangle[(i + 1) % 3];
+      if (a < b && vertex(a).on_front && vertex(b).on_front)
+        chain.push_back({drawn.positions[a], drawn.positions[b], vertex(a).cut_end || vertex(b).cut_end});
+    }
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+    if (surface.vertices[v].on_front)
+      chain.push_back({drawn.positions[v], drawn.positions[v], surface.vertices[v].cut_end});
+  return chain;
+}
+
+double distance_to(const Vec3& p, const ChainEdge& edge) {
+  const Vec3 along = edge.b - edge.a;
+  const double t = along.isZero(0.0) ? 0.0 : (p - edge.a).dot(along) / along.squaredNorm();
+  return (p - edge.a - std::clamp(t, 0.0, 1.0) * along).norm();
+}
+
+struct Nearest {
+  double distance = std::numeric_limits<double>::infinity();
+  bool cut_end = false;
+};
+
+Nearest nearest_on(const std::vector<ChainEdge>& chain, const Vec3& p) {
+  Nearest nearest;
+  for (const ChainEdge& edge : chain) {
+    const double distance = distance_to(p, edge);
+    if (distance < nearest.distance) nearest = {distance, edge.cut_end};
+  }
+  return nearest;
+}
+
+/// Distance to the surface, or the radius if that is less, m.
+double surface_distance(const DeformedSurface& drawn, const Vec3& p, double radius) {
+  double nearest = radius;
+  for (const auto& [i, j, k] : drawn.triangles) {
+    const Vec3 &a = drawn.positions[i], &b = drawn.positions[j], &c = drawn.positions[k];
+    const Box box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
+    if (box.squaredExteriorDistance(p) < nearest * nearest)
+      nearest = std::min(nearest, point_triangle_distance(p, a, b, c));
+  }
+  return nearest;
+}
+
+/// How often a closed surface winds around a point: the sum of its triangles' solid angles over 4π (Van
+/// Oosterom and Strackee 1983).
+double winding_number(const DeformedSurface& drawn, const Vec3& p) {
+  double sum = 0.0;
+  for (const auto& [i, j, k] : drawn.triangles) {
+    const Vec3 a = drawn.positions[i] - p, b = drawn.positions[j] - p, c = drawn.positions[k] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (2.0 * EIGEN_PI);
+}
+
+/// Where a sample of the edge lies that is neither on the chain nor held.
+enum class Place { kOutside, kAtSurface, kBuried };
+
+Place place_of(const DeformedSurface& drawn, const Vec3& p, double voxel) {
+  const double to_surface = surface_distance(drawn, p, voxel);
+  if (to_surface <= kOnChain * voxel || winding_number(drawn, p) < 0.5) return Place::kOutside;
+  return to_surface == voxel ? Place::kBuried : Place::kAtSurface;
+}
+
+bool holds(const std::vector<EdgePart>& parts, double along) {
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const EdgePart& part) { return along >= part.from && along <= part.to; });
+}
+
+}  // namespace
+
+void Distances::add(double distance) {
+  ++count;
+  sum += distance;
+  largest = std::max(largest, distance);
+}
+
+void Distances::add(const Distances& other) {
+  count += other.count;
+  sum += other.sum;
+  largest = std::max(largest, other.largest);
+}
+
+void FrontFidelity::add(const FrontFidelity& other) {
+  crease.add(other.crease);
+  cut_end.add(other.cut_end);
+  vertices.add(other.vertices);
+  buried += other.buried;
+}
+
+FrontFidelity measure_front(const TissueSurface& surface, const DeformedSurface& drawn, const Polyline& front,
+                            const std::vector<EdgePart>& held, double voxel) {
+  FrontFidelity fidelity;
+  const std::vector<ChainEdge> chain = find_chain(surface, drawn);
+  for (const ChainEdge& edge : chain)
+    if (edge.a == edge.b) fidelity.vertices.add(project(front, edge.a).distance);
+  const Polyline samples = refine(front, kSample * voxel);
+  double along = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i > 0) along += (samples[i] - samples[i - 1]).norm();
+    const Nearest nearest = nearest_on(chain, samples[i]);
+    const Place place = nearest.distance <= kOnChain * voxel || holds(held, along)
+                            ? Place::kAtSurface
+                            : place_of(drawn, samples[i], voxel);
+    if (place == Place::kBuried || (place == Place::kAtSurface && chain.empty()))
+      ++fidelity.buried;
+    else if (place == Place::kAtSurface)
+      (nearest.cut_end ? fidelity.cut_end : fidelity.crease).add(nearest.distance);
+  }
+  return fidelity;
+}
+
+}  // namespace cfem_cutting
