@@ -4,10 +4,12 @@
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
+#include <map>
 
 #include "cfem_cutting/io/config_reader.h"
 #include "cfem_cutting/io/tool_path.h"
 #include "cfem_cutting/simulation/simulation.h"
+#include "yardstick.h"
 
 namespace cfem_cutting {
 namespace {
@@ -18,17 +20,24 @@ void run(benchmark::State& state, SimulationConfig config, const Shape& shape, c
   Simulation simulation(config, shape, blade);
   const double dt = config.dynamics.time_step;
   double iterations = 0.0, time = 0.0;
+  std::map<std::string, double> stages;  // ms, in all
   for (auto _ : state) {
     StepInput input;
     input.time = (time += dt);
     input.path = {path.at(time)};
-    iterations += simulation.step(input).iterations;
+    const StepReport report = simulation.step(input);
+    iterations += report.iterations;
+    for (const StageTime& stage : report.stages) stages[stage.stage] += stage.milliseconds;
     benchmark::DoNotOptimize(simulation.deformed_surface());
   }
   state.counters["voxels"] = static_cast<double>(simulation.volume().voxels().size());
   state.counters["elements"] = static_cast<double>(simulation.model().mesh().elements().size());
   state.counters["links_severed"] = static_cast<double>(simulation.volume().severed_count());
   state.counters["iterations"] = iterations / static_cast<double>(state.iterations());
+  const double per_yardstick = 1e-3 / yardstick() / static_cast<double>(state.iterations()) /
+                               state.counters["elements"].value;
+  for (const auto& [stage, milliseconds] : stages)
+    state.counters["yardsticks, " + stage] = milliseconds * per_yardstick;
   state.counters["steps/s"] =
       benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
