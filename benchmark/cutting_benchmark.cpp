@@ -34,8 +34,8 @@ void run(benchmark::State& state, SimulationConfig config, const Shape& shape, c
   state.counters["elements"] = static_cast<double>(simulation.model().mesh().elements().size());
   state.counters["links_severed"] = static_cast<double>(simulation.volume().severed_count());
   state.counters["iterations"] = iterations / static_cast<double>(state.iterations());
-  const double per_yardstick = 1e-3 / yardstick() / static_cast<double>(state.iterations()) /
-                               state.counters["elements"].value;
+  const double per_yardstick =
+      1e-3 / yardstick() / static_cast<double>(state.iterations()) / state.counters["elements"].value;
   for (const auto& [stage, milliseconds] : stages)
     state.counters["yardsticks, " + stage] = milliseconds * per_yardstick;
   state.counters["steps/s"] =
