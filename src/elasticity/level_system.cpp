@@ -16,6 +16,7 @@ namespace cfem_cutting {
 namespace {
 
 constexpr double kSafety = 1.1;
+constexpr float kWeakSpring = 1e-7f;  // of a node's mean stiffness
 constexpr int kLanczosSteps = 10;
 
 /// Values without pattern, the same every time.
@@ -139,21 +140,12 @@ void LevelSystem::prepare_constraints() {
   if (count == 0) return;
   Eigen::MatrixXf compliance(count, count);
   SingleField moved = SingleField::Zero(4, static_cast<Eigen::Index>(held_.size()));
-  const auto& nodes = product_.elements().nodes;
   for (int i = 0; i < count; ++i) {
     const ConstraintRow& row = constraints_[i];
-    for (int n = 0; n < 8; ++n) {
-      const int node = nodes[row.element][n];
-      moved.col(node) += row.weights[n] * (inverse_[node] * row.direction);
-    }
-    for (int j = 0; j < count; ++j) {
-      const ConstraintRow& other = constraints_[j];
-      Quad at = Quad::Zero();
-      for (int n = 0; n < 8; ++n) at += other.weights[n] * moved.col(nodes[other.element][n]);
-      compliance(j, i) = other.direction.dot(at.head<3>());
-    }
+    add_scaled_to_nodes(row, 1.0f, moved);
+    for (int j = 0; j < count; ++j) compliance(j, i) = constraints_[j].displacement(moved);
     compliance(i, i) += 1.0f / row.stiffness;
-    for (int node : nodes[row.element]) moved.col(node).setZero();
+    for (int node : row.nodes) moved.col(node).setZero();
   }
   compliance_.compute(compliance);
 }
@@ -162,8 +154,7 @@ void LevelSystem::apply(const SingleField& p, SingleField& y) const {
   y.resize(4, p.cols());
   product_.apply(p, [p = quads_of(p), y = quads_of(y), d = node_diagonal_.data(), s = stiffness_factor_](
                         int n, const Quad& sum) CFEM_CUTTING_INLINE { y[n] = s * sum + d[n] * p[n]; });
-  for (std::size_t i = 0; i < constraints_.size(); ++i)
-    add_to_nodes(constraints_[i], constraints_[i].stiffness * displacement(constraints_[i], p), y);
+  for (const ConstraintRow& row : constraints_) row.add(row.force(p), y);
 }
 
 void LevelSystem::residual(const SingleField& b, const SingleField& x, SingleField& r) const {
@@ -171,28 +162,13 @@ void LevelSystem::residual(const SingleField& b, const SingleField& x, SingleFie
   product_.apply(x, [b = quads_of(b), x = quads_of(x), r = quads_of(r), d = node_diagonal_.data(),
                      s = stiffness_factor_](int n, const Quad& sum)
                         CFEM_CUTTING_INLINE { r[n] = b[n] - (s * sum + d[n] * x[n]); });
-  for (const ConstraintRow& row : constraints_) add_to_nodes(row, -row.stiffness * displacement(row, x), r);
-}
-
-/// dᵀ (w · p)
-float LevelSystem::displacement(const ConstraintRow& row, const SingleField& p) const {
-  const ElementNodes& nodes = product_.elements().nodes[row.element];
-  Quad at = Quad::Zero();
-  for (int n = 0; n < 8; ++n) at += row.weights[n] * p.col(nodes[n]);
-  return row.direction.dot(at.head<3>());
-}
-
-/// y += force (w ⊗ d)
-void LevelSystem::add_to_nodes(const ConstraintRow& row, float force, SingleField& y) const {
-  const ElementNodes& nodes = product_.elements().nodes[row.element];
-  for (int n = 0; n < 8; ++n) y.col(nodes[n]).head<3>() += row.weights[n] * force * row.direction;
+  for (const ConstraintRow& row : constraints_) row.add(-row.force(x), r);
 }
 
 /// y += force M⁻¹ (w ⊗ d)
 void LevelSystem::add_scaled_to_nodes(const ConstraintRow& row, float force, SingleField& y) const {
-  const ElementNodes& nodes = product_.elements().nodes[row.element];
   for (int n = 0; n < 8; ++n)
-    y.col(nodes[n]) += row.weights[n] * force * (inverse_[nodes[n]] * row.direction);
+    y.col(row.nodes[n]) += row.weights[n] * force * (inverse_[row.nodes[n]] * row.direction);
 }
 
 /// z = factor M⁻¹ r with M the nodes' blocks and the constraints.
@@ -209,7 +185,7 @@ void LevelSystem::scale(const SingleField& r, float factor, SingleField& z) cons
 void LevelSystem::correct_for_constraints(const Eigen::VectorXf& kept, SingleField& z) const {
   if (constraints_.empty()) return;
   Eigen::VectorXf along(constraints_.size());
-  for (std::size_t i = 0; i < constraints_.size(); ++i) along[i] = displacement(constraints_[i], z) - kept[i];
+  for (std::size_t i = 0; i < constraints_.size(); ++i) along[i] = constraints_[i].displacement(z) - kept[i];
   along = compliance_.solve(along).eval();
   for (std::size_t i = 0; i < constraints_.size(); ++i) add_scaled_to_nodes(constraints_[i], -along[i], z);
 }
@@ -220,9 +196,9 @@ void LevelSystem::sweep(float keep, float add, const SingleField& b, const Singl
                         SingleField& before) const {
   Eigen::VectorXf forces(constraints_.size()), kept(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const float at = displacement(constraints_[i], x);
+    const float at = constraints_[i].displacement(x);
     forces[i] = constraints_[i].stiffness * at;
-    kept[i] = at + (keep != 0.0f ? keep * (at - displacement(constraints_[i], before)) : 0.0f);
+    kept[i] = at + (keep != 0.0f ? keep * (at - constraints_[i].displacement(before)) : 0.0f);
   }
   before.resize(4, x.cols());
   product_.apply(x, [b = quads_of(b), x = quads_of(x), next = quads_of(before), inverse = inverse_.data(),
@@ -278,46 +254,10 @@ void LevelSystem::smooth(const SingleField& b, SingleField& x) const {
   sweep_on(chebyshev, b, x, before_);
 }
 
+/// Rigid motions of free bodies get a weak spring.
 void LevelSystem::factorise() {
-  const ElementSet& elements = product_.elements();
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](int row_node, int column_node, const Mat3& block) {
-    if (held_[row_node] || held_[column_node]) return;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) entries.emplace_back(3 * row_node + i, 3 * column_node + j, block(i, j));
-  };
-  for (int e = 0; e < elements.size(); ++e) {
-    const Mat3& R = product_.rotations()[e];
-    for (int n = 0; n < 8; ++n)
-      for (int m = 0; m < 8; ++m)
-        add(elements.nodes[e][n], elements.nodes[e][m],
-            stiffness_factor_ * R * elements.stiffness[e]->block<3, 3>(3 * n, 3 * m) * R.transpose());
-  }
-  for (const ConstraintRow& row : constraints_) {
-    const Vec3 d = row.direction.cast<double>();
-    for (int n = 0; n < 8; ++n)
-      for (int m = 0; m < 8; ++m)
-        add(elements.nodes[row.element][n], elements.nodes[row.element][m],
-            row.stiffness * row.weights[n] * row.weights[m] * d * d.transpose());
-  }
-  const double shift = 1e-7 * mean_stiffness();  // rigid motions of free bodies
-  for (int n = 0; n < static_cast<int>(held_.size()); ++n)
-    for (int i = 3 * n; i < 3 * n + 3; ++i)
-      entries.emplace_back(i, i, held_[n] ? 1.0 : node_diagonal_[n] + shift);
-  const auto size = 3 * static_cast<Eigen::Index>(held_.size());
-  Eigen::SparseMatrix<double> A(size, size);
-  A.setFromTriplets(entries.begin(), entries.end());
-  factors_.compute(A);
-}
-
-void LevelSystem::solve(const SingleField& b, SingleField& x) const {
-  NodeField load = from_quads(b);
-  for (std::size_t n = 0; n < held_.size(); ++n)
-    if (held_[n]) load.col(static_cast<Eigen::Index>(n)).setZero();
-  const Eigen::Map<Eigen::VectorXd> flat(load.data(), load.size());
-  if (factors_.info() != Eigen::Success) return void(x = to_quads(load));
-  const Eigen::VectorXd solution = factors_.solve(flat);
-  x = to_quads(Eigen::Map<const NodeField>(solution.data(), 3, b.cols()));
+  const Eigen::VectorXf diagonal = node_diagonal_.array() + kWeakSpring * mean_stiffness();
+  direct_.factorise(product_, stiffness_factor_, diagonal, constraints_, held_);
 }
 
 }  // namespace cfem_cutting

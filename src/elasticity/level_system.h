@@ -1,21 +1,12 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
 #include <vector>
 
-#include "element_product.h"
+#include "direct_solver.h"
 #include "node_block.h"
 
 namespace cfem_cutting {
-
-/// A constraint's row on one level: k (w ⊗ d)(w ⊗ d)ᵀ with the weights w of an element's nodes.
-struct ConstraintRow {
-  int element;
-  Eigen::Matrix<float, 8, 1> weights;
-  Eigen::Vector3f direction;  ///< unit
-  float stiffness;            ///< N/m
-};
 
 /// What the smoother does: a Chebyshev polynomial of this degree damps the eigenvalues from a part of the
 /// largest one to that.
@@ -57,10 +48,9 @@ class LevelSystem {
   /// x on towards A⁻¹ b.
   void smooth(const SingleField& b, SingleField& x) const;
 
-  /// x = A⁻¹ b by Cholesky's factors, which `factorise` makes. Sparse: tissue in many pieces has many
-  /// coarsest elements.
+  /// x = A⁻¹ b by factors, which `factorise` makes.
   void factorise();
-  void solve(const SingleField& b, SingleField& x) const;
+  void solve(const SingleField& b, SingleField& x) const { direct_.solve(b, x); }
 
  private:
   template <typename Work>
@@ -70,8 +60,6 @@ class LevelSystem {
   void sweep_on(Chebyshev& chebyshev, const SingleField& b, SingleField& x, SingleField& before) const;
   void scale(const SingleField& r, float factor, SingleField& z) const;
   void correct_for_constraints(const Eigen::VectorXf& kept, SingleField& z) const;
-  float displacement(const ConstraintRow& row, const SingleField& p) const;
-  void add_to_nodes(const ConstraintRow& row, float force, SingleField& y) const;
   void add_scaled_to_nodes(const ConstraintRow& row, float force, SingleField& y) const;
   void prepare_constraints();
   void invert_at_rest();
@@ -89,7 +77,7 @@ class LevelSystem {
   std::vector<Eigen::Matrix3f> inverse_at_rest_;  // m/N, of the nodes' blocks; zero for held nodes
   std::vector<NodeBlock> inverse_;                // m/N, turned
   Eigen::LDLT<Eigen::MatrixXf> compliance_;       // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
+  DirectSolver direct_;
   mutable SingleField before_;  // scratch
 };
 

@@ -18,7 +18,8 @@ std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constrain
   std::vector<ConstraintRow> rows;
   for (const PointConstraint& c : constraints) {
     if (!(c.stiffness > 0.0)) continue;
-    ConstraintRow row{c.at.element, {}, c.direction.cast<float>(), static_cast<float>(c.stiffness)};
+    ConstraintRow row{
+        c.at.element, c.at.nodes, {}, c.direction.cast<float>(), static_cast<float>(c.stiffness)};
     for (int n = 0; n < 8; ++n) row.weights[n] = static_cast<float>(c.at.weights[n]);
     rows.push_back(row);
   }
@@ -101,13 +102,14 @@ std::vector<Mat3> Multigrid::coarse_rotations(const Level& fine, int count) cons
 std::vector<ConstraintRow> Multigrid::coarse_constraints(const Level& fine, const ElementSet& coarse) const {
   std::vector<ConstraintRow> rows = fine.system.constraints();
   for (ConstraintRow& row : rows) {
-    const ElementNodes& from = fine.system.product().elements().nodes[row.element];
+    const ElementNodes from = row.nodes;
     row.element = fine.parent[row.element];
+    row.nodes = coarse.nodes[row.element];
     Eigen::Matrix<float, 8, 1> weights = Eigen::Matrix<float, 8, 1>::Zero();
     for (int n = 0; n < 8; ++n)
       for (int i = fine.interpolation.first[from[n]]; i < fine.interpolation.first[from[n] + 1]; ++i)
         for (int m = 0; m < 8; ++m)
-          if (coarse.nodes[row.element][m] == fine.interpolation.node[i])
+          if (row.nodes[m] == fine.interpolation.node[i])
             weights[m] += row.weights[n] * fine.interpolation.weight[i];
     row.weights = weights;
   }
