@@ -195,6 +195,21 @@ TEST(Step, FreeFallOfARigidState) {
   EXPECT_NEAR(state.v(2, 5), -0.0981 / 1.005, 1e-12);
 }
 
+TEST(Step, TurnedTissueWithoutLoadIsSolved) {
+  const VoxelVolume volume = tilted_volume({0.06, 0.05, 0.04}, 0.01);
+  const ElasticModel model(volume, 0, {soft(0.45)}, ElementKind::kIncompatibleModes,
+                           Kinematics::kCorotational);
+  const Mat3 R = Eigen::AngleAxisd(1.9, Vec3(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+  const NodeField turned = (R * model.mesh().rest()).colwise() + Vec3(3.0, -2.0, 5.0);
+  ElasticState state{turned, NodeField::Zero(3, turned.cols())};
+  SolverOptions options;
+  options.tolerance = 1e-8;
+  Integrator integrator(options);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_TRUE(integrator.step(model, state, 0.01, Vec3::Zero(), {}, {}).converged) << i;
+  EXPECT_LT((state.x - turned).cwiseAbs().maxCoeff(), 1e-11);
+}
+
 TEST(Step, SettlesInEquilibrium) {
   const ElasticModel model(box_volume({0.04, 0.04, 0.04}, 0.01), 0, {soft(0.45)},
                            ElementKind::kIncompatibleModes, Kinematics::kCorotational);
