@@ -74,6 +74,7 @@ std::vector<int> sort_by_element(const std::vector<Vec3i>& block, const std::vec
     keys.emplace_back(morton_place(block[v]), root[v], static_cast<int>(v));
   std::sort(keys.begin(), keys.end());
   std::vector<int> order;
+  order.reserve(keys.size());
   for (const auto& key : keys) order.push_back(std::get<2>(key));
   return order;
 }

@@ -7,7 +7,7 @@ namespace {
 #define KERNEL_NAMESPACE baseline_float
 #define KERNEL_SCALAR float
 #define KERNEL_WIDTH 4
-#define KERNEL_QUADS(a, b, c, d) a, b, c, d
+#define KERNEL_QUADS(a, b, c, d) (a), (b), (c), (d)
 #include "element_kernel_body.h"
 #undef KERNEL_NAMESPACE
 #undef KERNEL_SCALAR
@@ -29,7 +29,7 @@ namespace {
 #define KERNEL_NAMESPACE avx2_float
 #define KERNEL_SCALAR float
 #define KERNEL_WIDTH 8
-#define KERNEL_QUADS(a, b, c, d) a, b, c, d, a + 4, b + 4, c + 4, d + 4
+#define KERNEL_QUADS(a, b, c, d) (a), (b), (c), (d), (a) + 4, (b) + 4, (c) + 4, (d) + 4
 #include "element_kernel_body.h"
 #undef KERNEL_NAMESPACE
 #undef KERNEL_SCALAR
@@ -51,8 +51,9 @@ namespace {
 #define KERNEL_NAMESPACE avx512_float
 #define KERNEL_SCALAR float
 #define KERNEL_WIDTH 16
-#define KERNEL_QUADS(a, b, c, d) \
-  a, b, c, d, a + 4, b + 4, c + 4, d + 4, a + 8, b + 8, c + 8, d + 8, a + 12, b + 12, c + 12, d + 12
+#define KERNEL_QUADS(a, b, c, d)                                                                        \
+  (a), (b), (c), (d), (a) + 4, (b) + 4, (c) + 4, (d) + 4, (a) + 8, (b) + 8, (c) + 8, (d) + 8, (a) + 12, \
+      (b) + 12, (c) + 12, (d) + 12
 #include "element_kernel_body.h"
 #undef KERNEL_NAMESPACE
 #undef KERNEL_SCALAR
