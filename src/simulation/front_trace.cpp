@@ -17,6 +17,10 @@ Vec3 go_in_tissue(const VoxelVolume& volume, const Vec3& from, const Vec3& way) 
   return at;
 }
 
+const Vec3& nearer_to(const Vec3& query, const Vec3& a, const Vec3& b) {
+  return (a - query).norm() <= (b - query).norm() ? a : b;
+}
+
 }  // namespace
 
 /// The blade pushes at it; or it would if the tissue had come to rest, as after a fracture.
@@ -32,7 +36,11 @@ bool Simulation::State::holds(const EdgeContactPoint& p) const {
 /// there is tissue, which in motion may reach farther along the edge than at rest.
 void Simulation::State::extend(const EdgeContactPoint& last, int step, Trace& trace) const {
   const std::optional<FrontEnd> end = tracker.end_beyond(last.along, step, volume);
-  Vec3 X = end ? go_in_tissue(volume, end->X, last.X - end->X_at_start) : last.X;
+  Vec3 X = last.X;
+  if (end) {
+    const Vec3 beyond = end->X - end->X_at_start, ahead = last.X - end->X_at_start;
+    X = nearer_to(last.X + beyond, go_in_tissue(volume, last.X, beyond), go_in_tissue(volume, end->X, ahead));
+  }
   (step > 0 ? trace.tip : trace.heel) = end && end->edge_ends;
   if ((!end || !end->edge_ends) && tissue_voxel_at(volume, X) >= 0)
     X = go_in_tissue(volume, X, 2.0 * contact_spacing() * tracker.material_tangent(last.along, step));

@@ -1,4 +1,5 @@
 #include "cfem_cutting/surface/tissue_surface.h"
+#include "edge_pull.h"
 
 namespace cfem_cutting {
 namespace {
@@ -32,14 +33,33 @@ Vec3 on_edge(const SurfaceVertex& vertex, const Polyline& front, const Vec3& p) 
   return project(front, p).point;
 }
 
+/// How far around a vertex that the edge holds others are drawn along.
+double pull_reach(const CompositeMesh& mesh) {
+  constexpr double kVoxels = 2.0;
+  return kVoxels * mesh.block_size().minCoeff() / (1 << mesh.level());
+}
+
+/// Vertices that the edge holds on it, and what is around a cut's end along with it.
+void put_on_edge(const TissueSurface& surface, const Polyline& front, double reach,
+                 std::vector<Vec3>& positions) {
+  EdgePull pull(reach);
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+    const SurfaceVertex& vertex = surface.vertices[v];
+    if (!vertex.on_front) continue;
+    const Vec3 held = on_edge(vertex, front, positions[v]);
+    if (vertex.cut_end) pull.add(vertex.X, held - positions[v]);
+    positions[v] = held;
+  }
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+    if (!surface.vertices[v].on_front) positions[v] += pull.at(surface.vertices[v].X);
+}
+
 void place(const TissueSurface& surface, const CompositeMesh& mesh, const NodeField& x, const Polyline& front,
            DeformedSurface& drawn) {
   drawn.positions.resize(drawn.source.size());
-  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
-    const SurfaceVertex& vertex = surface.vertices[v];
-    const Vec3 p = mesh.embed(vertex.voxel, vertex.X).apply(x);
-    drawn.positions[v] = vertex.on_front && front.size() > 1 ? on_edge(vertex, front, p) : p;
-  }
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+    drawn.positions[v] = mesh.embed(surface.vertices[v].voxel, surface.vertices[v].X).apply(x);
+  if (front.size() > 1) put_on_edge(surface, front, pull_reach(mesh), drawn.positions);
   for (std::size_t v = surface.vertices.size(); v < drawn.source.size(); ++v)
     drawn.positions[v] = drawn.positions[drawn.source[v]];
 }

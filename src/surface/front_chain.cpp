@@ -17,7 +17,7 @@ constexpr double kShortPiece = 0.1;  // of a voxel: shorter pieces of the trace 
 constexpr double kDetour = 0.3;      // for a vertex whose cell the trace does not pass
 constexpr double kBreak = 3.0;       // for vertices that nothing joins
 constexpr double kUncovered = 5.0;   // for each voxel of the trace's length, where one vertex stands for all
-constexpr double kNearest = 0.02;    // of a voxel, between vertices
+constexpr double kNearest = 0.005;   // of a voxel, between vertices
 
 /// How far a vertex may be moved along the trace to its end, in voxels.
 constexpr double kReach = 2.0;

@@ -101,10 +101,12 @@ TEST(Deform, doubles_the_rim_and_draws_bound_vertices_on_the_front) {
   for (std::size_t v = 0; v < drawn.positions.size(); ++v) {
     const SurfaceVertex& source = surface.vertices[drawn.source[v]];
     EXPECT_NEAR(drawn.normals[v].norm(), 1.0, 1e-12);
-    if (source.on_front)
+    const bool near = std::hypot(source.X.x() - 4.2, source.X.z() - 2.8) < 2.0;
+    if (source.on_front) {
       EXPECT_LT(project(front, drawn.positions[v]).distance, 1e-9);
-    else
-      EXPECT_LT((drawn.positions[v] - source.X - shift).norm(), 1e-9);
+    } else {
+      EXPECT_LT((drawn.positions[v] - source.X - shift).norm(), near ? 0.1 : 1e-9);
+    }
   }
   std::vector<int> kind(drawn.positions.size(), -1);
   for (std::size_t t = 0; t < drawn.triangles.size(); ++t)
@@ -112,6 +114,27 @@ TEST(Deform, doubles_the_rim_and_draws_bound_vertices_on_the_front) {
       EXPECT_TRUE(kind[v] < 0 || kind[v] == drawn.cut[t]) << "vertex " << v << " is of skin and cut";
       kind[v] = drawn.cut[t];
     }
+}
+
+TEST(Deform, draws_the_neighbourhood_of_a_held_cut_end_along) {
+  VoxelVolume volume = box_volume({8, 6, 6});
+  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()}, [](const Vec3& X) { return X.z() > 2.8; });
+  SurfaceExtractor extractor(volume);
+  const TissueSurface& surface = extractor.extract({line({4.2, 0, 2.8}, {4.2, 6, 2.8})});
+  const CompositeMesh mesh(volume, 1);
+  const Vec3 way(0.0, 0.0, 0.4);
+  const DeformedSurface drawn = deform(surface, mesh, mesh.rest(), {{4.2, -1.0, 3.2}, {4.2, 7.0, 3.2}});
+  int along = 0;
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+    const Vec3& X = surface.vertices[v].X;
+    const double part = (drawn.positions[v] - X).dot(way) / way.squaredNorm();
+    EXPECT_LT((drawn.positions[v] - X - part * way).norm(), 1e-9);
+    EXPECT_GE(part, 0.0);
+    const bool near = std::hypot(X.x() - 4.2, X.z() - 2.8) < 2.0;
+    EXPECT_LE(part, near ? 1.0 + 1e-9 : 0.0);
+    along += part > 0.1 && !surface.vertices[v].on_front;
+  }
+  EXPECT_GT(along, 10);
 }
 
 }  // namespace

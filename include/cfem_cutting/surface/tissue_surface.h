@@ -90,7 +90,8 @@ struct DeformedSurface {
 
 /// Vertices shared by skin and cut triangles are doubled so that the rim is sharp (triangle indices refer to
 /// the doubled vertices; `source` of each: first the surface's vertices, then the doubles).
-/// @param front where bound vertices (on_front) are drawn; empty: leave them
+/// @param front where bound vertices (on_front) are drawn; empty: leave them. Those within two voxels of a
+/// cut's end that it holds are drawn along, the less the farther.
 DeformedSurface deform(const TissueSurface& surface, const CompositeMesh& mesh, const NodeField& x,
                        const Polyline& front);
 
