@@ -52,6 +52,8 @@ void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
   largest_ = kSafety * largest_eigenvalue();
 }
 
+void LevelSystem::estimate_largest() { largest_ = std::max(largest_, kSafety * largest_eigenvalue()); }
+
 void LevelSystem::set(std::vector<Mat3> rotations, Eigen::VectorXf node_diagonal, float stiffness_factor,
                       std::vector<ConstraintRow> constraints) {
   product_.rotate(std::move(rotations));

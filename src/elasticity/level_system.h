@@ -34,6 +34,12 @@ class LevelSystem {
   const std::vector<char>& held() const { return held_; }
   const Eigen::VectorXf& node_diagonal() const { return node_diagonal_; }
   const std::vector<ConstraintRow>& constraints() const { return constraints_; }
+  /// Estimates the largest eigenvalue anew, for the rotations as they are.
+  void estimate_largest();
+
+  /// z = M⁻¹ r by the nodes' blocks and the constraints: positive whatever the rotations.
+  void scale(const SingleField& r, SingleField& z) const { scale(r, 1.0f, z); }
+
   float mean_stiffness() const;  ///< N/m, of a node's diagonal
 
   /// y = A p; rows of held nodes are without meaning.

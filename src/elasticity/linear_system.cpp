@@ -48,10 +48,18 @@ double sum_over_nodes(ThreadPool& pool, int count, const Term& term) {
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
+/// What conjugate gradients are preconditioned by, one after the other fails to be positive: rotations that
+/// differ much from element to element can make the smoother diverge.
+enum class Preconditioner { kMultigrid, kAdaptedMultigrid, kNodeBlocks };
+
+struct Outcome {
+  int iterations = 0;
+  bool broke_down = false;  // the preconditioner is not positive
+};
+
 /// x ≈ A⁻¹ r by conjugate gradients until the residual, which r becomes, is `goal` at most.
-/// @return the iterations
-int conjugate_gradients(const LinearSystem& system, SingleField& r, SingleField& x, double goal,
-                        int max_iterations) {
+Outcome conjugate_gradients(const LinearSystem& system, Preconditioner preconditioner, SingleField& r,
+                            SingleField& x, double goal, int max_iterations) {
   const Multigrid& multigrid = system.multigrid();
   const int count = static_cast<int>(r.cols());
   const auto sum = [&](const auto& term) { return sum_over_nodes(multigrid.pool(), count, term); };
@@ -59,11 +67,17 @@ int conjugate_gradients(const LinearSystem& system, SingleField& r, SingleField&
   x = SingleField::Zero(4, count);
   double rz = 1.0;
   double size = std::sqrt(sum([&](int n) { return r.col(n).squaredNorm(); }));
-  int iteration = 0;
+  Outcome outcome;
+  int& iteration = outcome.iterations;
   for (; iteration < max_iterations && size > goal; ++iteration) {
-    multigrid.precondition(r, z);
+    if (preconditioner == Preconditioner::kNodeBlocks) {
+      multigrid.finest().scale(r, z);
+    } else {
+      multigrid.precondition(r, z);
+    }
     const double next_rz = sum([&](int n) { return r.col(n).dot(z.col(n)); });
-    if (!(next_rz > 0.0)) break;
+    outcome.broke_down = !(next_rz > 0.0);
+    if (outcome.broke_down) break;
     const auto keep = static_cast<float>(iteration > 0 ? next_rz / rz : 0.0);
     rz = next_rz;
     multigrid.pool().for_range(count, kFewest, [&](int begin, int end) {
@@ -81,7 +95,13 @@ int conjugate_gradients(const LinearSystem& system, SingleField& r, SingleField&
       return r.col(n).squaredNorm();
     }));
   }
-  return iteration;
+  return outcome;
+}
+
+Preconditioner next_after(Preconditioner failed, const LinearSystem& system) {
+  if (failed != Preconditioner::kMultigrid) return Preconditioner::kNodeBlocks;
+  system.adapt_smoothers();
+  return Preconditioner::kAdaptedMultigrid;
 }
 
 }  // namespace
@@ -134,24 +154,32 @@ SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx,
   SolveReport report;
   report.converged = false;  // nor if the load is not finite
   NodeField last = dx;
+  auto preconditioner = Preconditioner::kMultigrid;
+  bool broke_down = false;
   for (double before = std::numeric_limits<double>::infinity();;) {
     const NodeField r = residual(system, b, dx);
     const double size = r.norm();
-    if (!(size < before)) {  // rounding, or worse
+    if (!(size < before) && !(broke_down && size == before)) {  // rounding, or worse
       dx = last;
       return report;
     }
     report.residual = load > 0.0 ? size / load : 0.0;
     report.converged = size <= goal;
-    const bool stagnates = !(size < 0.9 * before);
+    const bool stagnates = !broke_down && !(size < 0.9 * before);
     if (report.converged || report.iterations >= max_iterations || stagnates) return report;
     before = size;
     last = dx;
     SingleField scaled = to_quads(r / size), change;
-    report.iterations +=
-        conjugate_gradients(system, scaled, change, std::max(0.8 * goal / size, kMostReduction),
-                            max_iterations - report.iterations);
-    dx += size * from_quads(change);
+    const Outcome outcome =
+        conjugate_gradients(system, preconditioner, scaled, change,
+                            std::max(0.8 * goal / size, kMostReduction), max_iterations - report.iterations);
+    report.iterations += outcome.iterations;
+    broke_down = outcome.broke_down && preconditioner != Preconditioner::kNodeBlocks;
+    if (broke_down) {
+      preconditioner = next_after(preconditioner, system);
+    } else {
+      dx += size * from_quads(change);
+    }
   }
 }
 

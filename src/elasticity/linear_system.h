@@ -24,6 +24,7 @@ class LinearSystem {
   void clear_held(NodeField& field) const;
   void clear_held(SingleField& field) const;
   const Multigrid& multigrid() const { return multigrid_; }
+  void adapt_smoothers() const { multigrid_.adapt_smoothers(); }
 
  private:
   Multigrid& multigrid_;

@@ -90,6 +90,10 @@ void Multigrid::set(std::vector<Mat3> rotations, const SystemValues& values) {
   levels_.back().system.factorise();
 }
 
+void Multigrid::adapt_smoothers() {
+  for (Level& level : levels_) level.system.estimate_largest();
+}
+
 /// The rotation nearest to the sum of the parts'.
 std::vector<Mat3> Multigrid::coarse_rotations(const Level& fine, int count) const {
   std::vector<Mat3> sums(count, Mat3::Zero());

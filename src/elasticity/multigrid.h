@@ -31,6 +31,9 @@ class Multigrid {
   /// Takes over rotations and values.
   void set(std::vector<Mat3> rotations, const SystemValues& values);
 
+  /// Fits the smoothers to rotations that differ much from element to element. Until the next mesh.
+  void adapt_smoothers();
+
   ThreadPool& pool() const { return pool_; }
   const LevelSystem& finest() const { return levels_.front().system; }
 

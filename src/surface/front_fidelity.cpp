@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "nearby_surface.h"
+
 namespace cfem_cutting {
 namespace {
 
@@ -51,36 +53,13 @@ Nearest nearest_on(const std::vector<ChainEdge>& chain, const Vec3& p) {
   return nearest;
 }
 
-/// Distance to the surface, or the radius if that is less, m.
-double surface_distance(const DeformedSurface& drawn, const Vec3& p, double radius) {
-  double nearest = radius;
-  for (const auto& [i, j, k] : drawn.triangles) {
-    const Vec3 &a = drawn.positions[i], &b = drawn.positions[j], &c = drawn.positions[k];
-    const Box box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
-    if (box.squaredExteriorDistance(p) < nearest * nearest)
-      nearest = std::min(nearest, point_triangle_distance(p, a, b, c));
-  }
-  return nearest;
-}
-
-/// How often a closed surface winds around a point: the sum of its triangles' solid angles over 4π (Van
-/// Oosterom and Strackee 1983).
-double winding_number(const DeformedSurface& drawn, const Vec3& p) {
-  double sum = 0.0;
-  for (const auto& [i, j, k] : drawn.triangles) {
-    const Vec3 a = drawn.positions[i] - p, b = drawn.positions[j] - p, c = drawn.positions[k] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum / (2.0 * EIGEN_PI);
-}
-
 /// Where a sample of the edge lies that is neither on the chain nor held.
 enum class Place { kOutside, kAtSurface, kBuried };
 
-Place place_of(const DeformedSurface& drawn, const Vec3& p, double voxel) {
-  const double to_surface = surface_distance(drawn, p, voxel);
-  if (to_surface <= kOnChain * voxel || winding_number(drawn, p) < 0.5) return Place::kOutside;
+Place place_of(const NearbySurface& nearby, const Vec3& p, double voxel) {
+  if (nearby.winding_number(p) <= 0) return Place::kOutside;
+  const double to_surface = nearby.distance(p);
+  if (to_surface <= kOnChain * voxel) return Place::kOutside;
   return to_surface == voxel ? Place::kBuried : Place::kAtSurface;
 }
 
@@ -117,13 +96,16 @@ FrontFidelity measure_front(const TissueSurface& surface, const DeformedSurface&
   for (const ChainEdge& edge : chain)
     if (edge.a == edge.b) fidelity.vertices.add(project(front, edge.a).distance);
   const Polyline samples = refine(front, kSample * voxel);
+  Box around;
+  for (const Vec3& sample : samples) around.extend(sample);
+  const NearbySurface nearby(drawn, around, voxel);
   double along = 0.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (i > 0) along += (samples[i] - samples[i - 1]).norm();
     const Nearest nearest = nearest_on(chain, samples[i]);
     const Place place = nearest.distance <= kOnChain * voxel || holds(held, along)
                             ? Place::kAtSurface
-                            : place_of(drawn, samples[i], voxel);
+                            : place_of(nearby, samples[i], voxel);
     if (place == Place::kBuried || (place == Place::kAtSurface && chain.empty()))
       ++fidelity.buried;
     else if (place == Place::kAtSurface)
