@@ -40,8 +40,11 @@ class Run:
         return max(0, int(numpy.searchsorted(self.times, time, "right")) // EVERY - 1)
 
     def units(self, wanted):
-        """Numbers of the surfaces just before the fractures of some units (from 1), and of those a little later."""
-        ends = [self.fractures[unit - 1] for unit in wanted]
+        """Numbers of the surfaces just before the fractures of some units, and of those a little later.
+
+        Units are given by their place among all, from 0 (the first) to 1 (the last).
+        """
+        ends = [self.fractures[round(place * (len(self.fractures) - 1))] for place in wanted]
         return [surface for end in ends for surface in (self.surface_at(end - 0.01), self.surface_at(end + 0.1))]
 
     def blade(self, surface):
@@ -79,10 +82,10 @@ def save(path, picture):
 
 LIVER = Camera(focus=(0.172, 0.036, 0.105), away=(0.58, -0.8, 0.15), distance=0.085, size=(400, 320))
 WIDTH = (266, 230)
-MODELS = {  # units shown, camera
-    "bunny": ((2, 4, 5), Camera((0.016, 0.012, -0.002), (0.4, 0.8, 1.0), 0.11, WIDTH, up=(0, 1, 0))),
-    "bread": ((10, 18, 26), Camera((0.045, 0.04, 0.045), (-0.35, -1.0, 0.65), 0.19, WIDTH)),
-    "steak": ((5, 11, 19), Camera((0.08, 0.035, 0.012), (-0.3, -1.0, 0.8), 0.125, WIDTH)),
+MODELS = {  # places of the units shown, camera
+    "bunny": ((0.25, 0.75, 1.0), Camera((0.016, 0.012, -0.002), (0.4, 0.8, 1.0), 0.11, WIDTH, up=(0, 1, 0))),
+    "bread": ((0.18, 0.34, 0.5), Camera((0.045, 0.04, 0.045), (-0.35, -1.0, 0.65), 0.19, WIDTH)),
+    "steak": ((0.25, 0.55, 1.0), Camera((0.08, 0.035, 0.012), (-0.3, -1.0, 0.8), 0.125, WIDTH)),
 }
 
 
@@ -96,7 +99,7 @@ def close_up(run, surface):
 def liver(results):
     """Rows: immediate, delayed, delayed with adaptation; at the same times."""
     runs = [Run(results / f"liver_{name}", "liver", "liver_press") for name in ("immediate", "delayed", "adaptation")]
-    shown = runs[2].units((1, 4))
+    shown = runs[2].units((0.0, 0.6))
     rows = []
     for run in runs:
         last = run.surface_at(run.times[-1])
