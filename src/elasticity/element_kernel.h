@@ -25,7 +25,7 @@ template <typename Scalar>
 struct ElementBatch {
   MatrixForm form;
   const Scalar* stiffness;
-  const Scalar* rotation;  ///< (9 × 16), R row by row, lane-major: entry i of lane l at [16 i + l]
+  const Scalar* rotation;  ///< (3 × 16), rodrigues_parameters of R: parameter i of lane l at [16 i + l]
   const int* nodes;        ///< (8 × 16), lane-major
   const Scalar* x;         ///< (4 × |nodes|), node by node
   Scalar* y;               ///< (8 × 16 × 4): node n of lane l at [4 (16 n + place_of_lane(l))]

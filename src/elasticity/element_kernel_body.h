@@ -69,6 +69,24 @@ static inline void scatter(const Vector* values, int lane, KERNEL_SCALAR* y) {
 
 #endif
 
+/// R, row by row, by the quaternion of its Rodrigues parameters.
+static inline void unpack_rotation(const KERNEL_SCALAR* parameters, Vector* R) {
+  Vector v[3], square[3];
+  for (int i = 0; i < 3; ++i) v[i] = load(parameters + kLanes * i);
+  const Vector size = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  const Vector scale = 2 / (1 + size);
+  const Vector twice_w = 2 * (scale - 1);
+  for (int i = 0; i < 3; ++i) v[i] *= scale;
+  for (int i = 0; i < 3; ++i) square[i] = 2 * v[i] * v[i];
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const Vector product = 2 * v[i] * v[j], turn = twice_w * v[k];
+    R[4 * i] = 1 - square[j] - square[k];
+    R[3 * i + j] = product - turn;
+    R[3 * j + i] = product + turn;
+  }
+}
+
 /// y = R K Rᵀ x; x is used up. Transformed, the first node is a translation, which has no forces.
 static inline void multiply_mirrored(const KERNEL_SCALAR* K, const Vector* R, Vector* x, Vector* y) {
   Vector u[24] = {};
@@ -84,7 +102,7 @@ static void multiply(const ElementBatch<KERNEL_SCALAR>& batch) {
   for (int lane = 0; lane < kLanes; lane += kWidth) {
     Vector x[24], u[24], R[9];
     for (int n = 0; n < 8; ++n) gather(batch.x, batch.nodes + kLanes * n + lane, x + 3 * n);
-    for (int i = 0; i < 9; ++i) R[i] = load(batch.rotation + kLanes * i + lane);
+    unpack_rotation(batch.rotation + lane, R);
     if (batch.form == MatrixForm::kMirrored) {
       multiply_mirrored(batch.stiffness, R, x, u);
     } else {

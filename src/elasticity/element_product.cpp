@@ -1,11 +1,20 @@
 #include "element_product.h"
 
+#include "node_loops.h"
+#include "rotation.h"
+
 namespace cfem_cutting {
 
 SingleField to_quads(const NodeField& field) {
   SingleField quads(4, field.cols());
   quads.topRows<3>() = field.cast<float>();
   quads.row(3).setZero();
+  return quads;
+}
+
+SingleField to_quads(const NodeField& field, ThreadPool& pool) {
+  SingleField quads(4, field.cols());
+  for_each_node(pool, field.cols(), [&](int n) { quads.col(n) << field.col(n).cast<float>(), 0.0f; });
   return quads;
 }
 
@@ -27,16 +36,6 @@ void ElementProduct::apply(const SingleField& p, SingleField& y) const {
   apply(p, [&](int node, const Quad& sum) { y.col(node) = sum; });
 }
 
-void ElementProduct::apply(const NodeField& p, NodeField& y) const {
-  fit(double_);
-  Eigen::Matrix4Xd quads = Eigen::Matrix4Xd::Zero(4, p.cols());
-  quads.topRows<3>() = p;
-  y.resize(3, p.cols());
-  elements_->tiles.sum_up<double>(
-      *pool_, [&](int b, double* out) { multiply(batch(double_, b, quads.data(), out)); },
-      [&](int node, const Eigen::Vector4d& sum) { y.col(node) = sum.head<3>(); });
-}
-
 std::vector<Mat3> ElementProduct::diagonal_at_rest() const {
   const ElementSet& set = elements_->set;
   std::vector<Mat3> blocks(set.node_count, Mat3::Zero());
@@ -52,17 +51,18 @@ void ElementProduct::fit(Packed<Scalar>& packed) const {
   packed.stiffness_fits = packed.rotations_fit = true;
 }
 template void ElementProduct::fit(Packed<float>& packed) const;
+template void ElementProduct::fit(Packed<double>& packed) const;
 
 template <typename Scalar>
 void ElementProduct::pack_rotations(std::vector<Scalar>& packed) const {
   const ElementTiles& tiles = elements_->tiles;
-  packed.resize(static_cast<std::size_t>(tiles.size()) * 9 * kLanes, Scalar{0});
+  packed.resize(static_cast<std::size_t>(tiles.size()) * 3 * kLanes, Scalar{0});
   tiles.for_each(*pool_, [&](int b) {
     const ElementTiles::Batch& batch = tiles.batches[b];
-    Scalar* out = packed.data() + static_cast<std::size_t>(b) * 9 * kLanes;
+    Scalar* out = packed.data() + static_cast<std::size_t>(b) * 3 * kLanes;
     for (int lane = 0; lane < batch.count; ++lane) {
-      const Mat3& R = rotations_[tiles.element_of_lane[batch.first + lane]];
-      for (int i = 0; i < 9; ++i) out[i * kLanes + lane] = static_cast<Scalar>(R(i / 3, i % 3));
+      const Vec3 parameters = rodrigues_parameters(rotations_[tiles.element_of_lane[batch.first + lane]]);
+      for (int i = 0; i < 3; ++i) out[i * kLanes + lane] = static_cast<Scalar>(parameters[i]);
     }
   });
 }

@@ -12,6 +12,7 @@ using SingleField = Eigen::Matrix<float, 4, Eigen::Dynamic>;
 inline Quad* quads_of(SingleField& field) { return reinterpret_cast<Quad*>(field.data()); }
 inline const Quad* quads_of(const SingleField& field) { return reinterpret_cast<const Quad*>(field.data()); }
 SingleField to_quads(const NodeField& field);
+SingleField to_quads(const NodeField& field, ThreadPool& pool);
 NodeField from_quads(const SingleField& field);
 
 /// The product Σ R K Rᵀ p over the elements of a level, matrix-free: tile by tile elements go through the
@@ -38,9 +39,16 @@ class ElementProduct {
         *pool_, [&](int b, float* y) { multiply(batch(single_, b, p.data(), y)); }, finish);
   }
 
-  /// y = Σ R K Rᵀ p, in the precision of its arguments
-  void apply(const SingleField& p, SingleField& y) const;
-  void apply(const NodeField& p, NodeField& y) const;
+  template <typename Finish>
+  void apply(const NodeField& p, const Finish& finish) const {
+    fit(double_);
+    Eigen::Matrix4Xd quads = Eigen::Matrix4Xd::Zero(4, p.cols());
+    quads.topRows<3>() = p;
+    elements_->tiles.sum_up<double>(
+        *pool_, [&](int b, double* y) { multiply(batch(double_, b, quads.data(), y)); }, finish);
+  }
+
+  void apply(const SingleField& p, SingleField& y) const;  ///< y = Σ R K Rᵀ p
 
   /// Diagonal 3 × 3 blocks of Σ K, at rest, N/m.
   std::vector<Mat3> diagonal_at_rest() const;
@@ -53,7 +61,7 @@ class ElementProduct {
   template <typename Scalar>
   struct Packed {
     PackedStiffness<Scalar> stiffness;
-    std::vector<Scalar> rotations;  // (|batches| × 9 × lanes)
+    std::vector<Scalar> rotations;  // (|batches| × 3 × lanes), Rodrigues parameters
     bool stiffness_fits = false, rotations_fit = false;
   };
   template <typename Scalar>
@@ -64,7 +72,7 @@ class ElementProduct {
   ElementBatch<Scalar> batch(const Packed<Scalar>& packed, int b, const Scalar* p, Scalar* y) const {
     return {packed.stiffness.form(b),
             packed.stiffness.of_batch(b),
-            packed.rotations.data() + static_cast<std::size_t>(b) * 9 * kLanes,
+            packed.rotations.data() + static_cast<std::size_t>(b) * 3 * kLanes,
             elements_->tiles.nodes_of(b),
             p,
             y};

@@ -22,9 +22,10 @@ std::vector<std::vector<int>> group_by_matrix(const ElementSet& elements, int be
 
 }  // namespace
 
-ElementTiles::ElementTiles(const ElementSet& elements) {
-  for (int begin = 0; begin < elements.size(); begin += kTile)
-    add_tile(elements, begin, std::min(elements.size(), begin + kTile));
+ElementTiles::ElementTiles(const ElementSet& elements)
+    : tile_size_(std::clamp(elements.size() / 4, kTile / 4, kTile)) {
+  for (int begin = 0; begin < elements.size(); begin += tile_size_)
+    add_tile(elements, begin, std::min(elements.size(), begin + tile_size_));
   add_nodes(elements);
   add_totals(elements.node_count);
 }
@@ -74,9 +75,9 @@ void ElementTiles::add_nodes(const ElementSet& elements) {
     const int first = at.corners[at.first[node]];
     first_element.push_back(first / 8);
     for (int i = at.first[node]; i < at.first[node + 1]; ++i) {
-      const int tile = at.corners[i] / 8 / kTile;
+      const int tile = at.corners[i] / 8 / tile_size_;
       corners[tile].emplace_back(node, slot_of_corner[at.corners[i]]);
-      if (tile != first / 8 / kTile) on_border[node] = 1;
+      if (tile != first / 8 / tile_size_) on_border[node] = 1;
     }
   }
   for (std::size_t t = 0; t < tiles_.size(); ++t) {

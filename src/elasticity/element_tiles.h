@@ -43,25 +43,26 @@ class ElementTiles {
     thread_local std::vector<QuadOf<Scalar>> border;  // the caller's, for all threads
     border.resize(border_sums_.nodes.size());
     QuadOf<Scalar>* const on_border = border.data();
-    pool.for_range(static_cast<int>(tiles_.size()), kFewest / kTile, [&](int begin, int end) {
-      thread_local std::vector<Line<Scalar>> lines;
-      for (int t = begin; t < end; ++t) {
-        const Tile& tile = tiles_[t];
-        lines.resize(static_cast<std::size_t>(tile.end_batch - tile.first_batch) * kEntries / kLanes);
-        Scalar* const out = lines.data()->data();
-        for (int b = tile.first_batch; b < tile.end_batch; ++b)
-          work(b, out + static_cast<std::size_t>(b - tile.first_batch) * kEntries);
-        const auto* quads = reinterpret_cast<const QuadOf<Scalar>*>(out);
-        inner_sums_.finish(quads, tile.inner, tile.end_inner, finish);
-        border_sums_.finish(quads, tile.border, tile.end_border,
-                            [on_border](int entry, const auto& sum) { on_border[entry] = sum; });
-      }
-    });
+    pool.for_range(
+        static_cast<int>(tiles_.size()), std::max(1, kFewest / tile_size_), [&](int begin, int end) {
+          thread_local std::vector<Line<Scalar>> lines;
+          for (int t = begin; t < end; ++t) {
+            const Tile& tile = tiles_[t];
+            lines.resize(static_cast<std::size_t>(tile.end_batch - tile.first_batch) * kEntries / kLanes);
+            Scalar* const out = lines.data()->data();
+            for (int b = tile.first_batch; b < tile.end_batch; ++b)
+              work(b, out + static_cast<std::size_t>(b - tile.first_batch) * kEntries);
+            const auto* quads = reinterpret_cast<const QuadOf<Scalar>*>(out);
+            inner_sums_.finish(quads, tile.inner, tile.end_inner, finish);
+            border_sums_.finish(quads, tile.border, tile.end_border,
+                                [on_border](int entry, const auto& sum) { on_border[entry] = sum; });
+          }
+        });
     pool.for_range(static_cast<int>(total_sums_.nodes.size()), kFewest,
                    [&](int begin, int end) { total_sums_.finish(on_border, begin, end, finish); });
   }
 
-  static constexpr int kFewest = 1024;  ///< elements or nodes worth waking a thread for
+  static constexpr int kFewest = 256;  ///< elements or nodes worth waking a thread for
 
   std::vector<Batch> batches;
   std::vector<int> element_of_lane;  ///< batch by batch
@@ -69,7 +70,7 @@ class ElementTiles {
   std::vector<int> first_element;    ///< per node: the first element there
 
  private:
-  static constexpr int kTile = 512;             // elements
+  static constexpr int kTile = 512;             // elements, at most
   static constexpr int kEntries = 32 * kLanes;  // of a batch
 
   template <typename Scalar>
@@ -120,6 +121,7 @@ class ElementTiles {
   void add_nodes(const ElementSet& elements);
   void add_totals(int node_count);
 
+  int tile_size_ = kTile;  // elements
   std::vector<Tile> tiles_;
   Sums<std::uint16_t> inner_sums_, border_sums_;  // of a tile's quads
   Sums<int> total_sums_;                          // of border_sums_, in order

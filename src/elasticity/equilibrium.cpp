@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cfem_cutting/elasticity/floating.h"
+#include "conjugate_gradients.h"
 
 namespace cfem_cutting {
 namespace {

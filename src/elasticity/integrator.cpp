@@ -1,7 +1,8 @@
 #include "cfem_cutting/elasticity/integrator.h"
 
+#include "conjugate_gradients.h"
 #include "equilibrium.h"
-#include "linear_system.h"
+#include "node_loops.h"
 #include "workspace.h"
 
 namespace cfem_cutting {
@@ -19,18 +20,23 @@ SolveReport Integrator::step(const ElasticModel& model, ElasticState& state, dou
                             {inertia * model.mass(), 1.0 + options_.rayleigh_stiffness / dt, &constraints},
                             held.nodes, precision_for(options_.tolerance));
 
-  NodeField b =
-      elastic.forces + state.v * (model.mass() / dt).asDiagonal() + gravity * model.mass().transpose();
+  NodeField& b = elastic.forces;
+  NodeField dx(3, b.cols());
+  for_each_node(workspace_->pool, b.cols(), [&](int n) {
+    b.col(n) += model.mass()[n] * (state.v.col(n) / dt + gravity);
+    dx.col(n) = dt * state.v.col(n);
+  });
   add_constraint_forces(constraints, state.x, b);
-  NodeField dx = dt * state.v;
   for (std::size_t i = 0; i < held.nodes.size(); ++i)
     dx.col(held.nodes[i]) = held.positions[i] - state.x.col(held.nodes[i]);
 
   SolveReport report = solve(system, b, dx, options_.tolerance, options_.max_iterations,
-                             model.mesh().block_size().mean(), (gravity * model.mass().transpose()).norm());
+                             model.mesh().block_size().mean(), gravity.norm() * model.mass().norm());
   report.inverted_elements = elastic.inverted;
-  state.x += dx;
-  state.v = dx / dt;
+  for_each_node(workspace_->pool, dx.cols(), [&](int n) {
+    state.x.col(n) += dx.col(n);
+    state.v.col(n) = dx.col(n) / dt;
+  });
   return report;
 }
 

@@ -47,6 +47,9 @@ void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
   constraints_.clear();
   product_.arrange(std::move(elements));
   diagonal_at_rest_ = product_.diagonal_at_rest();
+  mean_at_rest_ = 0.0;
+  for (const Mat3& block : diagonal_at_rest_)
+    mean_at_rest_ += block.trace() / (3.0 * diagonal_at_rest_.size());
   invert_at_rest();
   turn_inverses();
   largest_ = kSafety * largest_eigenvalue();
@@ -100,10 +103,7 @@ double LevelSystem::largest_eigenvalue() const {
 }
 
 float LevelSystem::mean_stiffness() const {
-  double trace = 0.0;
-  for (std::size_t n = 0; n < diagonal_at_rest_.size(); ++n)
-    trace += stiffness_factor_ * diagonal_at_rest_[n].trace() + 3.0 * node_diagonal_[n];
-  return static_cast<float>(trace / (3.0 * diagonal_at_rest_.size()));
+  return static_cast<float>(stiffness_factor_ * mean_at_rest_ + node_diagonal_.cast<double>().mean());
 }
 
 /// Calls work(begin, end) on small ranges of nodes, on several threads.

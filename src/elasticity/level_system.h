@@ -76,6 +76,7 @@ class LevelSystem {
   Smoothing smoothing_;
   std::vector<char> held_;
   std::vector<Mat3> diagonal_at_rest_;  // N/m
+  double mean_at_rest_ = 0.0;           // N/m, of its diagonal
   double largest_ = 1.0;                // eigenvalue of (diag Σ K)⁻¹ Σ K
   Eigen::VectorXf node_diagonal_;
   float stiffness_factor_ = 1.0f;

@@ -20,7 +20,9 @@ class LinearSystem {
   LinearSystem(Multigrid& multigrid, const ElasticModel& model, std::vector<Mat3> rotations,
                SystemValues values, const std::vector<int>& held, Precision precision);
 
-  void apply(const NodeField& p, NodeField& y) const;
+  /// r = b − A x on the free nodes, zero on the held ones.
+  void residual(const NodeField& b, const NodeField& x, NodeField& r) const;
+  const std::vector<int>& held() const { return held_; }
   void clear_held(NodeField& field) const;
   void clear_held(SingleField& field) const;
   const Multigrid& multigrid() const { return multigrid_; }
@@ -36,15 +38,5 @@ class LinearSystem {
 /// Forces of the constraints on the nodes at x, N.
 void add_constraint_forces(const std::vector<PointConstraint>& constraints, const NodeField& x,
                            NodeField& forces);
-
-/// Solves A dx = b by conjugate gradients in single precision, preconditioned by the V-cycle, inside
-/// iterative refinement; held nodes keep their dx.
-/// @param dx initial guess, and the solution
-/// @param tolerance of ‖b − A dx‖ over free nodes, relative to that with the free dx = 0 or, if larger,
-/// `least_load` (N)
-/// @param max_iterations in total
-/// @param length m, of a block: the size of dx below which there is only rounding
-SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx, double tolerance,
-                  int max_iterations, double length, double least_load = 0.0);
 
 }  // namespace cfem_cutting

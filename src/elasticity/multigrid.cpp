@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "node_loops.h"
 #include "rotation.h"
 
 namespace cfem_cutting {
@@ -99,7 +100,9 @@ std::vector<Mat3> Multigrid::coarse_rotations(const Level& fine, int count) cons
   std::vector<Mat3> sums(count, Mat3::Zero());
   const std::vector<Mat3>& rotations = fine.system.product().rotations();
   for (std::size_t e = 0; e < rotations.size(); ++e) sums[fine.parent[e]] += rotations[e];
-  for (Mat3& sum : sums) sum = polar_rotation(sum / std::max(sum.norm(), 1e-6) * std::sqrt(3.0)).R;
+  for_each_node(pool_, count, [&](int e) {
+    sums[e] = polar_rotation(sums[e] / std::max(sums[e].norm(), 1e-6) * std::sqrt(3.0)).R;
+  });
   return sums;
 }
 

@@ -1,6 +1,7 @@
 #include "rotation.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <cmath>
 
@@ -47,6 +48,16 @@ PolarRotation polar_rotation(const Mat3& F) {
     result.R = rotation_by_svd(F);
   }
   return result;
+}
+
+Vec3 rodrigues_parameters(const Mat3& R) {
+  const double w_doubled_squared = 1.0 + R.trace();
+  if (w_doubled_squared > 1.0) {
+    const double scale = 1.0 / (w_doubled_squared + 2.0 * std::sqrt(w_doubled_squared));
+    return scale * Vec3(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+  }
+  const Eigen::Quaterniond q(R);
+  return q.vec() / (q.w() + std::copysign(1.0, q.w()));  // q and −q are the same rotation
 }
 
 Vec3 solve_spin(const Mat3& S, const Vec3& t) {

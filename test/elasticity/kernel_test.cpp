@@ -7,6 +7,7 @@
 #include "corotation_kernel.h"
 #include "element_set.h"
 #include "mirrored_matrix.h"
+#include "rotation.h"
 
 namespace cfem_cutting {
 namespace {
@@ -29,6 +30,8 @@ ElementMatrix make_matrix(bool is_mirrored) {
   return left * K * left;
 }
 
+Mat3 half_turn(int axis) { return Eigen::AngleAxisd(M_PI, Vec3::Unit(axis)).toRotationMatrix(); }
+
 template <typename Scalar>
 struct Specimen {
   explicit Specimen(MatrixForm matrix_form) : form(matrix_form) {
@@ -37,10 +40,10 @@ struct Specimen {
       matrices.push_back(lane > 0 && form != MatrixForm::kTriangles
                              ? matrices.front()
                              : make_matrix(form == MatrixForm::kMirrored));
-      rotations.push_back(Eigen::Quaterniond::UnitRandom().toRotationMatrix());
+      rotations.push_back(lane < 3 ? half_turn(lane) : Eigen::Quaterniond::UnitRandom().toRotationMatrix());
       for (int n = 0; n < 8; ++n) nodes[n * kLanes + lane] = (11 * n + 3 * lane) % kNodes;
-      for (int i = 0; i < 9; ++i)
-        rotation[i * kLanes + lane] = static_cast<Scalar>(rotations.back()(i / 3, i % 3));
+      for (int i = 0; i < 3; ++i)
+        rotation[i * kLanes + lane] = static_cast<Scalar>(rodrigues_parameters(rotations.back())[i]);
     }
     x.setRandom();
     x.row(3).setZero();
@@ -74,7 +77,7 @@ struct Specimen {
   std::vector<ElementMatrix> matrices;
   std::vector<Mat3> rotations;
   std::vector<Scalar> stiffness;
-  Scalar rotation[9 * kLanes];
+  Scalar rotation[3 * kLanes];
   int nodes[8 * kLanes];
   Eigen::Matrix<Scalar, 4, kNodes> x;
 };

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cfem_cutting/volume/voxel_volume.h"
-#include "linear_system.h"
+#include "conjugate_gradients.h"
 #include "specimens.h"
 
 namespace cfem_cutting {

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "thread_pool.h"
+
+namespace cfem_cutting {
+
+/// Calls work(node) for each node, on several threads.
+template <typename Work>
+void for_each_node(ThreadPool& pool, Eigen::Index count, const Work& work) {
+  constexpr int kFewest = 2048;  // worth waking a thread for
+  pool.for_range(static_cast<int>(count), kFewest, [&](int begin, int end) {
+    for (int n = begin; n < end; ++n) work(n);
+  });
+}
+
+/// Σ term(node) in parts of fixed size, so that the sum is the same for any number of threads.
+template <typename Term>
+double sum_over_nodes(ThreadPool& pool, Eigen::Index count, const Term& term) {
+  constexpr int kPart = 1024;
+  const int nodes = static_cast<int>(count);
+  std::vector<double> sums(nodes / kPart + 1, 0.0);
+  pool.for_range(static_cast<int>(sums.size()), 2, [&](int begin, int end) {
+    for (int part = begin; part < end; ++part)
+      for (int n = part * kPart; n < std::min(nodes, (part + 1) * kPart); ++n) sums[part] += term(n);
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+}  // namespace cfem_cutting
