@@ -75,11 +75,11 @@ std::vector<ElementKernel> find_kernels() {
   std::vector<ElementKernel> kernels;
 #if defined(__x86_64__) && defined(__GNUC__)
   if (__builtin_cpu_supports("avx512f"))
-    kernels.push_back({"AVX-512", avx512_float::multiply, avx512_double::multiply});
+    kernels.push_back({"AVX-512", avx512_float::multiply, avx512_double::multiply, avx512_float::diagonal});
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    kernels.push_back({"AVX2", avx2_float::multiply, avx2_double::multiply});
+    kernels.push_back({"AVX2", avx2_float::multiply, avx2_double::multiply, avx2_float::diagonal});
 #endif
-  kernels.push_back({"baseline", baseline_float::multiply, baseline_double::multiply});
+  kernels.push_back({"baseline", baseline_float::multiply, baseline_double::multiply, baseline_float::diagonal});
   return kernels;
 }
 
@@ -92,5 +92,8 @@ const std::vector<ElementKernel>& element_kernels() {
 
 void multiply(const ElementBatch<float>& batch) { element_kernels().front().single(batch); }
 void multiply(const ElementBatch<double>& batch) { element_kernels().front().precise(batch); }
+void find_diagonal(const ElementBatch<float>& batch, bool beside) {
+  element_kernels().front().diagonal(batch, beside);
+}
 
 }  // namespace cfem_cutting

@@ -36,6 +36,7 @@ struct ElementKernel {
   const char* name;
   void (*single)(const ElementBatch<float>&);
   void (*precise)(const ElementBatch<double>&);
+  void (*diagonal)(const ElementBatch<float>&, bool beside);
 };
 
 /// Those that this processor can run, the widest first.
@@ -44,5 +45,9 @@ const std::vector<ElementKernel>& element_kernels();
 /// Multiplies a batch with the widest instructions that this processor has.
 void multiply(const ElementBatch<float>& batch);
 void multiply(const ElementBatch<double>& batch);
+
+/// Instead of a product writes to y, for each node, entries of its 3 × 3 block of R K Rᵀ: the diagonal, or those
+/// beside it, (1, 2), (0, 2) and (0, 1).
+void find_diagonal(const ElementBatch<float>& batch, bool beside);
 
 }  // namespace cfem_cutting

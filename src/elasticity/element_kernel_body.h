@@ -114,4 +114,8 @@ static void multiply(const ElementBatch<KERNEL_SCALAR>& batch) {
   }
 }
 
+#ifdef KERNEL_QUADS
+#include "diagonal_body.h"
+#endif
+
 }  // namespace KERNEL_NAMESPACE

@@ -36,12 +36,14 @@ void ElementProduct::apply(const SingleField& p, SingleField& y) const {
   apply(p, [&](int node, const Quad& sum) { y.col(node) = sum; });
 }
 
-std::vector<Mat3> ElementProduct::diagonal_at_rest() const {
-  const ElementSet& set = elements_->set;
-  std::vector<Mat3> blocks(set.node_count, Mat3::Zero());
-  for (int e = 0; e < set.size(); ++e)
-    for (int n = 0; n < 8; ++n) blocks[set.nodes[e][n]] += set.stiffness[e]->block<3, 3>(3 * n, 3 * n);
-  return blocks;
+void ElementProduct::find_diagonal(std::vector<NodeBlock>& blocks) const {
+  fit(single_);
+  blocks.resize(elements_->set.node_count);
+  for (const bool beside : {false, true})
+    elements_->tiles.sum_up<float>(
+        *pool_,
+        [&](int b, float* y) { cfem_cutting::find_diagonal(batch<float>(single_, b, nullptr, y), beside); },
+        [&](int node, const Quad& sum) { (beside ? blocks[node].beside : blocks[node].diagonal) = sum; });
 }
 
 template <typename Scalar>

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "node_block.h"
 #include "packed_stiffness.h"
 
 namespace cfem_cutting {
@@ -50,11 +51,8 @@ class ElementProduct {
 
   void apply(const SingleField& p, SingleField& y) const;  ///< y = Σ R K Rᵀ p
 
-  /// Diagonal 3 × 3 blocks of Σ K, at rest, N/m.
-  std::vector<Mat3> diagonal_at_rest() const;
-
-  /// The rotation of an element at each node: that of the first one there.
-  const Mat3& rotation_at(int node) const { return rotations_[elements_->tiles.first_element[node]]; }
+  /// The nodes' 3 × 3 blocks of Σ R K Rᵀ, N/m.
+  void find_diagonal(std::vector<NodeBlock>& blocks) const;
 
  private:
   /// Arrays for the kernel in one precision.

@@ -73,7 +73,6 @@ void ElementTiles::add_nodes(const ElementSet& elements) {
   std::vector<char> on_border(elements.node_count, 0);
   for (int node = 0; node < elements.node_count; ++node) {
     const int first = at.corners[at.first[node]];
-    first_element.push_back(first / 8);
     for (int i = at.first[node]; i < at.first[node + 1]; ++i) {
       const int tile = at.corners[i] / 8 / tile_size_;
       corners[tile].emplace_back(node, slot_of_corner[at.corners[i]]);

@@ -62,12 +62,11 @@ class ElementTiles {
                    [&](int begin, int end) { total_sums_.finish(on_border, begin, end, finish); });
   }
 
-  static constexpr int kFewest = 256;  ///< elements or nodes worth waking a thread for
+  static constexpr int kFewest = 512;  ///< elements or nodes worth waking a thread for
 
   std::vector<Batch> batches;
   std::vector<int> element_of_lane;  ///< batch by batch
   std::vector<int> nodes;            ///< (|batches| × 8 × lanes)
-  std::vector<int> first_element;    ///< per node: the first element there
 
  private:
   static constexpr int kTile = 512;             // elements, at most

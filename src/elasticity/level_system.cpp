@@ -32,12 +32,6 @@ SingleField noise(int columns) {
   return field;
 }
 
-Mat3 inverse_or_zero(const Mat3& block) {
-  const double size = block.trace();
-  if (!(size > 0.0) || !(block.determinant() > 1e-15 * size * size * size)) return Mat3::Zero();
-  return block.inverse();
-}
-
 }  // namespace
 
 void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
@@ -46,12 +40,9 @@ void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
   stiffness_factor_ = 1.0f;
   constraints_.clear();
   product_.arrange(std::move(elements));
-  diagonal_at_rest_ = product_.diagonal_at_rest();
+  invert_blocks();
   mean_at_rest_ = 0.0;
-  for (const Mat3& block : diagonal_at_rest_)
-    mean_at_rest_ += block.trace() / (3.0 * diagonal_at_rest_.size());
-  invert_at_rest();
-  turn_inverses();
+  for (const NodeBlock& block : blocks_) mean_at_rest_ += block.diagonal.sum() / (3.0 * blocks_.size());
   largest_ = kSafety * largest_eigenvalue();
 }
 
@@ -61,11 +52,9 @@ void LevelSystem::set(std::vector<Mat3> rotations, Eigen::VectorXf node_diagonal
                       std::vector<ConstraintRow> constraints) {
   product_.rotate(std::move(rotations));
   constraints_ = std::move(constraints);
-  const bool same = stiffness_factor == stiffness_factor_ && node_diagonal == node_diagonal_;
   node_diagonal_ = std::move(node_diagonal);
   stiffness_factor_ = stiffness_factor;
-  if (!same) invert_at_rest();
-  turn_inverses();
+  invert_blocks();
   prepare_constraints();
 }
 
@@ -115,25 +104,12 @@ void LevelSystem::for_nodes(const Work& work) const {
   });
 }
 
-void LevelSystem::invert_at_rest() {
-  inverse_at_rest_.assign(held_.size(), Eigen::Matrix3f::Zero());
-  for_nodes([&](int begin, int end) {
-    for (int n = begin; n < end; ++n) {
-      const Mat3 block = stiffness_factor_ * diagonal_at_rest_[n] + node_diagonal_[n] * Mat3::Identity();
-      if (!held_[n]) inverse_at_rest_[n] = inverse_or_zero(block).cast<float>();
-    }
-  });
-}
-
-/// A node's block turns with the first element there. That is exact where rotations are alike; where they
-/// aren't, the V-cycle loses quality, and conjugate gradients notice if it is no longer positive.
-void LevelSystem::turn_inverses() {
+void LevelSystem::invert_blocks() {
+  product_.find_diagonal(blocks_);
   inverse_.resize(held_.size());
   for_nodes([&](int begin, int end) {
-    for (int n = begin; n < end; ++n) {
-      const Eigen::Matrix3f R = product_.rotation_at(n).cast<float>();
-      inverse_[n] = NodeBlock(R * inverse_at_rest_[n] * R.transpose());
-    }
+    for (int n = begin; n < end; ++n)
+      inverse_[n] = held_[n] ? NodeBlock() : blocks_[n].inverse(stiffness_factor_, node_diagonal_[n]);
   });
 }
 
@@ -169,8 +145,10 @@ void LevelSystem::residual(const SingleField& b, const SingleField& x, SingleFie
 
 /// y += force M⁻¹ (w ⊗ d)
 void LevelSystem::add_scaled_to_nodes(const ConstraintRow& row, float force, SingleField& y) const {
+  Quad direction = Quad::Zero();
+  direction.head<3>() = row.direction;
   for (int n = 0; n < 8; ++n)
-    y.col(row.nodes[n]) += row.weights[n] * force * (inverse_[row.nodes[n]] * row.direction);
+    y.col(row.nodes[n]) += row.weights[n] * force * (inverse_[row.nodes[n]] * direction);
 }
 
 /// z = factor M⁻¹ r with M the nodes' blocks and the constraints.

@@ -68,22 +68,20 @@ class LevelSystem {
   void correct_for_constraints(const Eigen::VectorXf& kept, SingleField& z) const;
   void add_scaled_to_nodes(const ConstraintRow& row, float force, SingleField& y) const;
   void prepare_constraints();
-  void invert_at_rest();
-  void turn_inverses();
+  void invert_blocks();
   double largest_eigenvalue() const;
 
   ElementProduct product_;
   Smoothing smoothing_;
   std::vector<char> held_;
-  std::vector<Mat3> diagonal_at_rest_;  // N/m
-  double mean_at_rest_ = 0.0;           // N/m, of its diagonal
+  double mean_at_rest_ = 0.0;  // N/m, of a node's diagonal in Σ K
   double largest_ = 1.0;                // eigenvalue of (diag Σ K)⁻¹ Σ K
   Eigen::VectorXf node_diagonal_;
   float stiffness_factor_ = 1.0f;
   std::vector<ConstraintRow> constraints_;
-  std::vector<Eigen::Matrix3f> inverse_at_rest_;  // m/N, of the nodes' blocks; zero for held nodes
-  std::vector<NodeBlock> inverse_;                // m/N, turned
-  Eigen::LDLT<Eigen::MatrixXf> compliance_;       // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
+  std::vector<NodeBlock> blocks_;            // N/m, of Σ R K Rᵀ
+  std::vector<NodeBlock> inverse_;           // m/N, M⁻¹ without constraints; zero for held nodes
+  Eigen::LDLT<Eigen::MatrixXf> compliance_;  // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
   DirectSolver direct_;
   mutable SingleField before_;  // scratch
 };

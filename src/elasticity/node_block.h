@@ -4,35 +4,41 @@
 
 namespace cfem_cutting {
 
-/// A symmetric 3 × 3 matrix of a node, for quads: its diagonal, and (yz, xz, xy).
-class NodeBlock {
- public:
-  NodeBlock() = default;
-  explicit NodeBlock(const Eigen::Matrix3f& A)
-      : diagonal_{A(0, 0), A(1, 1), A(2, 2), 0.0f}, others_{A(1, 2), A(0, 2), A(0, 1), 0.0f} {}
+/// A symmetric 3 × 3 matrix of a node, for quads.
+struct NodeBlock {
+  Eigen::Vector4f diagonal = Eigen::Vector4f::Zero();
+  Eigen::Vector4f beside = Eigen::Vector4f::Zero();  ///< yz, xz, xy
 
   /// A v, with a zero as fourth
-  template <typename Vector>
-  EIGEN_ALWAYS_INLINE Eigen::Vector4f operator*(const Vector& v) const {
-    const Lanes r = {v[0], v[1], v[2], 0.0f};
-    return product(r);
-  }
   EIGEN_ALWAYS_INLINE Eigen::Vector4f operator*(const Eigen::Vector4f& v) const {
-    return product(*reinterpret_cast<const Lanes*>(v.data()));
-  }
-
- private:
-  typedef float Lanes __attribute__((vector_size(16), may_alias));
-
-  EIGEN_ALWAYS_INLINE Eigen::Vector4f product(Lanes r) const {
-    const Lanes a = diagonal_, b = others_;
+    const Lanes r = lanes(v), a = lanes(diagonal), b = lanes(beside);
     const Lanes sum = a * r +
                       __builtin_shufflevector(b, b, 2, 2, 1, 3) * __builtin_shufflevector(r, r, 1, 0, 0, 3) +
                       __builtin_shufflevector(b, b, 1, 0, 0, 3) * __builtin_shufflevector(r, r, 2, 2, 1, 3);
     return {sum[0], sum[1], sum[2], sum[3]};
   }
 
-  Lanes diagonal_ = {}, others_ = {};
+  /// (factor A + more I)⁻¹, or zero if that is not positive definite beyond rounding
+  NodeBlock inverse(double factor, double more) const {
+    const Eigen::Vector3d d = (factor * diagonal.head<3>().cast<double>()).array() + more;
+    const Eigen::Vector3d b = factor * beside.head<3>().cast<double>();
+    const Eigen::Vector3d minors(d[1] * d[2] - b[0] * b[0], d[0] * d[2] - b[1] * b[1], d[0] * d[1] - b[2] * b[2]);
+    const Eigen::Vector3d others(b[1] * b[2] - b[0] * d[0], b[0] * b[2] - b[1] * d[1], b[0] * b[1] - b[2] * d[2]);
+    const double determinant = d[0] * minors[0] + b[2] * others[2] + b[1] * others[1];
+    const double size = d.sum();
+    NodeBlock inverse;
+    if (!(size > 0.0) || !(determinant > kRounding * size * size * size)) return inverse;
+    inverse.diagonal.head<3>() = (minors / determinant).cast<float>();
+    inverse.beside.head<3>() = (others / determinant).cast<float>();
+    return inverse;
+  }
+
+ private:
+  static constexpr double kRounding = 1e-9;
+  typedef float Lanes __attribute__((vector_size(16), may_alias));
+  EIGEN_ALWAYS_INLINE static Lanes lanes(const Eigen::Vector4f& v) {
+    return *reinterpret_cast<const Lanes*>(v.data());
+  }
 };
 
 }  // namespace cfem_cutting

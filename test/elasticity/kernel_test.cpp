@@ -73,6 +73,10 @@ struct Specimen {
     return f;
   }
 
+  ElementBatch<Scalar> batch(Scalar* y) const {
+    return {form, stiffness.data(), rotation, nodes, x.data(), y};
+  }
+
   MatrixForm form;
   std::vector<ElementMatrix> matrices;
   std::vector<Mat3> rotations;
@@ -86,7 +90,7 @@ template <typename Scalar>
 void expect_products(MatrixForm form, void (*multiply)(const ElementBatch<Scalar>&), double tolerance) {
   const Specimen<Scalar> specimen(form);
   alignas(64) Scalar y[32 * kLanes];
-  multiply({form, specimen.stiffness.data(), specimen.rotation, specimen.nodes, specimen.x.data(), y});
+  multiply(specimen.batch(y));
   for (int lane = 0; lane < kLanes; ++lane) {
     const auto expected = specimen.expected(lane);
     for (int n = 0; n < 8; ++n) {
@@ -103,6 +107,29 @@ TEST(Kernels, MultiplyByEveryFormOfMatrix) {
     for (MatrixForm form : {MatrixForm::kMirrored, MatrixForm::kWhole, MatrixForm::kTriangles}) {
       expect_products<float>(form, kernel.single, 1e-5);
       expect_products<double>(form, kernel.precise, 1e-13);
+    }
+  }
+}
+
+TEST(Kernels, DiagonalBlocksTurnWithTheirElement) {
+  constexpr int kEntries[2][3][2] = {{{0, 0}, {1, 1}, {2, 2}}, {{1, 2}, {0, 2}, {0, 1}}};
+  for (const ElementKernel& kernel : element_kernels()) {
+    SCOPED_TRACE(kernel.name);
+    for (MatrixForm form : {MatrixForm::kMirrored, MatrixForm::kWhole, MatrixForm::kTriangles}) {
+      const Specimen<float> specimen(form);
+      for (const bool beside : {false, true}) {
+        alignas(64) float y[32 * kLanes];
+        kernel.diagonal(specimen.batch(y), beside);
+        for (int lane = 0; lane < kLanes; ++lane) {
+          for (int n = 0; n < 8; ++n) {
+            const Mat3& R = specimen.rotations[lane];
+            const Mat3 block = R * specimen.matrices[lane].block<3, 3>(3 * n, 3 * n) * R.transpose();
+            for (int i = 0; i < 3; ++i)
+              EXPECT_NEAR(y[4 * (kLanes * n + place_of_lane(lane)) + i],
+                          block(kEntries[beside][i][0], kEntries[beside][i][1]), 1e-5 * block.norm());
+          }
+        }
+      }
     }
   }
 }
