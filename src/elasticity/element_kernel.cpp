@@ -79,7 +79,8 @@ std::vector<ElementKernel> find_kernels() {
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
     kernels.push_back({"AVX2", avx2_float::multiply, avx2_double::multiply, avx2_float::diagonal});
 #endif
-  kernels.push_back({"baseline", baseline_float::multiply, baseline_double::multiply, baseline_float::diagonal});
+  kernels.push_back(
+      {"baseline", baseline_float::multiply, baseline_double::multiply, baseline_float::diagonal});
   return kernels;
 }
 

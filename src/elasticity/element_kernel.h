@@ -46,8 +46,8 @@ const std::vector<ElementKernel>& element_kernels();
 void multiply(const ElementBatch<float>& batch);
 void multiply(const ElementBatch<double>& batch);
 
-/// Instead of a product writes to y, for each node, entries of its 3 × 3 block of R K Rᵀ: the diagonal, or those
-/// beside it, (1, 2), (0, 2) and (0, 1).
+/// Instead of a product writes to y, for each node, entries of its 3 × 3 block of R K Rᵀ: the diagonal, or
+/// those beside it, (1, 2), (0, 2) and (0, 1).
 void find_diagonal(const ElementBatch<float>& batch, bool beside);
 
 }  // namespace cfem_cutting

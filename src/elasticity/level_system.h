@@ -18,7 +18,7 @@ struct Smoothing {
 /// The system of one level in single precision, A = D + s Σ R K Rᵀ + Σ k (w ⊗ d)(w ⊗ d)ᵀ, with its smoother.
 class LevelSystem {
  public:
-  LevelSystem(ThreadPool& pool, Smoothing smoothing) : product_(pool), smoothing_(smoothing) {}
+  explicit LevelSystem(ThreadPool& pool) : product_(pool) {}
 
   /// Takes over a new mesh.
   /// @param held per node: zero displacement
@@ -40,7 +40,9 @@ class LevelSystem {
   /// z = M⁻¹ r by the nodes' blocks and the constraints: positive whatever the rotations.
   void scale(const SingleField& r, SingleField& z) const { scale(r, 1.0f, z); }
 
-  float mean_stiffness() const;  ///< N/m, of a node's diagonal
+  float mean_stiffness() const;                                                ///< N/m, of a node's diagonal
+  double inertia() const { return node_diagonal_.mean() / mean_stiffness(); }  ///< the part of D in that
+  void smooth_with(Smoothing smoothing) { smoothing_ = smoothing; }
 
   /// y = A p; rows of held nodes are without meaning.
   void apply(const SingleField& p, SingleField& y) const;
@@ -72,10 +74,10 @@ class LevelSystem {
   double largest_eigenvalue() const;
 
   ElementProduct product_;
-  Smoothing smoothing_;
+  Smoothing smoothing_{1, 0.1};
   std::vector<char> held_;
   double mean_at_rest_ = 0.0;  // N/m, of a node's diagonal in Σ K
-  double largest_ = 1.0;                // eigenvalue of (diag Σ K)⁻¹ Σ K
+  double largest_ = 1.0;       // eigenvalue of (diag Σ K)⁻¹ Σ K
   Eigen::VectorXf node_diagonal_;
   float stiffness_factor_ = 1.0f;
   std::vector<ConstraintRow> constraints_;

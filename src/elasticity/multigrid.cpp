@@ -12,8 +12,10 @@ namespace {
 constexpr int kCoarsestNodes = 40;  // few enough to be factorised in every solve
 constexpr std::size_t kMostLevels = 12;
 
-/// Work on coarse levels costs little, and partly filled or cut elements need it there.
-constexpr Smoothing kFinestSmoothing{2, 0.06}, kCoarseSmoothing{5, 0.02};
+/// Partly filled or cut elements need more work on coarse levels, but only where inertia (see LevelSystem) is
+/// less than this.
+constexpr double kLittleInertia = 0.01;
+constexpr Smoothing kFinest{2, 0.06}, kHeavy{3, 0.05}, kLight{5, 0.02};
 
 std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constraints) {
   std::vector<ConstraintRow> rows;
@@ -69,12 +71,12 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
 }
 
 void Multigrid::add_level(ElementsPointer elements, std::vector<char> held) {
-  const Smoothing smoothing = levels_.empty() ? kFinestSmoothing : kCoarseSmoothing;
-  levels_.emplace_back(pool_, smoothing).system.arrange(std::move(elements), std::move(held));
+  levels_.emplace_back(pool_).system.arrange(std::move(elements), std::move(held));
 }
 
 void Multigrid::set(std::vector<Mat3> rotations, const SystemValues& values) {
   const auto factor = static_cast<float>(values.stiffness_factor);
+  levels_.front().system.smooth_with(kFinest);
   levels_.front().system.set(std::move(rotations), values.node_diagonal.cast<float>(), factor,
                              rows_of(*values.constraints));
   for (std::size_t l = 1; l < levels_.size(); ++l) {
@@ -87,6 +89,9 @@ void Multigrid::set(std::vector<Mat3> rotations, const SystemValues& values) {
         diagonal[fine.interpolation.node[i]] += fine.interpolation.weight[i] * fine.system.node_diagonal()[n];
     coarse.set(coarse_rotations(fine, elements.size()), std::move(diagonal), factor,
                coarse_constraints(fine, elements));
+    const bool light = coarse.inertia() < kLittleInertia;
+    coarse.smooth_with(light ? kLight : kHeavy);
+    levels_[l].cycles = light && l > 1 && l + 1 < levels_.size() ? 2 : 1;
   }
   levels_.back().system.factorise();
 }
@@ -129,7 +134,7 @@ void Multigrid::cycle(std::size_t l, const SingleField& b, SingleField& x) const
   level.system.smooth_from_zero(b, x, level.residual);
   level.restriction.apply(pool_, level.residual, level.coarse_load);
   cycle(l + 1, level.coarse_load, level.coarse_x);
-  if (l > 0 && l + 2 < levels_.size()) cycle_again(l + 1, level.coarse_load, level.coarse_x);
+  for (int i = 1; i < levels_[l + 1].cycles; ++i) cycle_again(l + 1, level.coarse_load, level.coarse_x);
   level.interpolation.add(pool_, level.coarse_x, x);
   level.system.smooth(b, x);
 }

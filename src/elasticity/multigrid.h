@@ -17,10 +17,11 @@ struct SystemValues {
   const std::vector<PointConstraint>* constraints = nullptr;
 };
 
-/// A symmetric cycle over the composite hierarchy: a V on the two finest levels, W below (Dick, Georgii and
-/// Westermann 2011): a preconditioner for A = D + s Σ R K Rᵀ + Σ k (w ⊗ d)(w ⊗ d)ᵀ. Coarse elements have the
-/// rest matrices of what is in them (Galerkin) and the mean of its rotations; the coarsest level is solved
-/// directly.
+/// A symmetric cycle over the composite hierarchy (Dick, Georgii and Westermann 2011): a preconditioner for A
+/// = D + s Σ R K Rᵀ + Σ k (w ⊗ d)(w ⊗ d)ᵀ. Coarse elements have the rest matrices of what is in them
+/// (Galerkin) and the mean of its rotations; the coarsest level is solved directly. Where inertia holds a
+/// coarse level, it is a V-cycle with little work there; otherwise a W-cycle below the second level, with
+/// more.
 class Multigrid {
  public:
   explicit Multigrid(ThreadPool& pool) : pool_(pool) {}
@@ -42,8 +43,9 @@ class Multigrid {
 
  private:
   struct Level {
-    Level(ThreadPool& pool, Smoothing smoothing) : system(pool, smoothing) {}
+    explicit Level(ThreadPool& pool) : system(pool) {}
     LevelSystem system;
+    int cycles = 1;           // on this level, for each on the finer one
     std::vector<int> parent;  // coarse element of each element
     Interpolation interpolation, restriction;
     mutable SingleField residual, coarse_load, coarse_x;

@@ -22,8 +22,10 @@ struct NodeBlock {
   NodeBlock inverse(double factor, double more) const {
     const Eigen::Vector3d d = (factor * diagonal.head<3>().cast<double>()).array() + more;
     const Eigen::Vector3d b = factor * beside.head<3>().cast<double>();
-    const Eigen::Vector3d minors(d[1] * d[2] - b[0] * b[0], d[0] * d[2] - b[1] * b[1], d[0] * d[1] - b[2] * b[2]);
-    const Eigen::Vector3d others(b[1] * b[2] - b[0] * d[0], b[0] * b[2] - b[1] * d[1], b[0] * b[1] - b[2] * d[2]);
+    const Eigen::Vector3d minors(d[1] * d[2] - b[0] * b[0], d[0] * d[2] - b[1] * b[1],
+                                 d[0] * d[1] - b[2] * b[2]);
+    const Eigen::Vector3d others(b[1] * b[2] - b[0] * d[0], b[0] * b[2] - b[1] * d[1],
+                                 b[0] * b[1] - b[2] * d[2]);
     const double determinant = d[0] * minors[0] + b[2] * others[2] + b[1] * others[1];
     const double size = d.sum();
     NodeBlock inverse;
