@@ -8,6 +8,7 @@ Runs lib/cfem_cutting/benchmark_elasticity of the build (-DCFEM_CUTTING_BENCHMAR
 By default the picture is doc/speed.svg.
 """
 
+import collections
 import json
 import pathlib
 import subprocess
@@ -37,19 +38,19 @@ def run_benchmark():
         sys.exit("speed_plot.py: no benchmark_elasticity in .build: run scripts/build")
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "speed.json"
-        subprocess.run([programs[0], f"--benchmark_out={out}", "--benchmark_out_format=json"], check=True)
+        arguments = [f"--benchmark_out={out}", "--benchmark_out_format=json", "--benchmark_repetitions=5"]
+        subprocess.run([programs[0], *arguments], check=True)
         return json.loads(out.read_text(encoding="utf-8"))
 
 
 def find_curve(results, begin, end):
-    """Elements, yardsticks an element; of steps: per step."""
-    points = []
+    """Elements, yardsticks an element, the median of repetitions; of steps: per step."""
+    yardsticks = collections.defaultdict(list)
     for entry in results["benchmarks"]:
-        if not (entry["name"].startswith(begin) and entry["name"].endswith(end)) or "elements" not in entry:
-            continue
-        across = int(entry["name"].split("/")[1])
-        points.append((across**3, entry["yardsticks"]))
-    return numpy.array(sorted(points)).T
+        name = entry["name"]
+        if name.startswith(begin) and name.endswith(end) and "elements" in entry and entry["run_type"] == "iteration":
+            yardsticks[int(name.split("/")[1]) ** 3].append(entry["yardsticks"])
+    return numpy.array(sorted((count, numpy.median(values)) for count, values in yardsticks.items())).T
 
 
 def main():
