@@ -97,7 +97,7 @@ SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx,
   const double load = std::max(free_load(system, b, dx), least_load);
   const double rounding = kRounding * system.multigrid().finest().mean_stiffness() * length *
                           std::sqrt(static_cast<double>(dx.cols()));
-  const double goal = std::max(tolerance * load, rounding);
+  const double reference = std::max(load, rounding / tolerance);
 
   ThreadPool& pool = system.multigrid().pool();
   SolveReport report;
@@ -113,15 +113,15 @@ SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx,
       dx = last;
       return report;
     }
-    report.residual = load > 0.0 ? size / load : 0.0;
-    report.converged = size <= goal;
+    report.residual = size / reference;
+    report.converged = report.residual <= tolerance;
     const bool stagnates = !broke_down && !(size < 0.9 * before);
     if (report.converged || report.iterations >= max_iterations || stagnates) return report;
     before = size;
     for_each_node(pool, dx.cols(), [&](int n) { scaled.col(n) << (r.col(n) / size).cast<float>(), 0.0f; });
-    const Outcome outcome =
-        conjugate_gradients(system, preconditioner, scaled, change,
-                            std::max(0.8 * goal / size, kMostReduction), max_iterations - report.iterations);
+    const Outcome outcome = conjugate_gradients(system, preconditioner, scaled, change,
+                                                std::max(0.8 * tolerance * reference / size, kMostReduction),
+                                                max_iterations - report.iterations);
     report.iterations += outcome.iterations;
     broke_down = outcome.broke_down && preconditioner != Preconditioner::kNodeBlocks;
     if (broke_down) {

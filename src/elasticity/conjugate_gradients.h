@@ -10,7 +10,8 @@ namespace cfem_cutting {
 /// @param tolerance of ‖b − A dx‖ over free nodes, relative to that with the free dx = 0 or, if larger,
 /// `least_load` (N)
 /// @param max_iterations in total
-/// @param length m, of a block: the size of dx below which there is only rounding
+/// @param length m, of a block: the size of dx below which there is only rounding. Where the load is no more
+/// than that, residuals are relative to it
 SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx, double tolerance,
                   int max_iterations, double length, double least_load = 0.0);
 
