@@ -49,6 +49,7 @@ Json front_figures(const FrontFidelity& front) {
   return {{"crease", figures(front.crease)},
           {"cut_end", figures(front.cut_end)},
           {"vertices", figures(front.vertices)},
+          {"covered", figures(front.covered)},
           {"buried_samples", front.buried}};
 }
 

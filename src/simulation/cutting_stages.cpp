@@ -145,13 +145,20 @@ void Simulation::State::advance_cut_end() {
   extractor.freeze();
   if (immediate()) return;
   for (const Touch& touch : tracker.inside()) {
-    if (contact.covers(touch.along)) continue;
+    if (contact.covers(touch.along) || is_in_earlier_cut(touch)) continue;
     EdgeContactPoint point;
     point.X = touch.X;
     point.voxel = touch.voxel;
     point.along = touch.along;
     contact.bind(point);
   }
+}
+
+/// Ahead of the edge there lies a cut from before this fracture.
+bool Simulation::State::is_in_earlier_cut(const Touch& touch) const {
+  const double near = 0.25 * volume.lattice().spacing.minCoeff();
+  const auto ahead = (*pull_back)(touch.on_edge + 2.0 * near * push());
+  return ahead && cut_surface.distance(ahead->X, near) <= near;
 }
 
 /// Figures of the new cut.

@@ -34,6 +34,7 @@ struct Simulation::State {
   void let_go();
   void rebuild(const Fracture& fracture);
   void advance_cut_end();
+  bool is_in_earlier_cut(const Touch& touch) const;
   void describe(const Fracture& fracture, FractureEvent& event);
   void find_held();
   void refresh_reference();

@@ -78,19 +78,23 @@ class ChainFinder {
 
   void add_nodes_on_walk() {
     passable_.assign(walk_.size(), false);
-    for (std::size_t i = 0; i < walk_.size(); ++i) {
-      on_walk_.insert(key(walk_[i].cell));
-      const int c = contour_.find(walk_[i].cell);
-      if (c < 0) continue;
-      const DualCell& cell = contour_.cells()[c];
-      const Box room = room_in_cell(contour_.volume().lattice(), cell.index);
-      for (const int group : eligible(cell)) {
-        const Vec3 X = project_within(walk_[i], cell.groups[group].minimum, room);
-        const double stretch = (X - cell.groups[group].minimum).norm() / h_;
-        const double shortness = std::max(0.0, 1.0 - walk_[i].length / (kShortPiece * h_));
-        add(c, group, i, true, X, 0.01 * stretch * stretch + kShortPiece * shortness);
-        passable_[i] = true;
+    for (std::size_t i = 0; i < walk_.size(); ++i)
+      for (const Vec3i& index : cells_along(contour_.volume().lattice(), walk_[i])) {
+        on_walk_.insert(key(index));
+        const int c = contour_.find(index);
+        if (c >= 0) add_nodes_in(contour_.cells()[c], c, i);
       }
+  }
+
+  void add_nodes_in(const DualCell& cell, int c, std::size_t i) {
+    const Box room = room_in_cell(contour_.volume().lattice(), cell.index)
+                         .merged(room_in_cell(contour_.volume().lattice(), walk_[i].cell));
+    for (const int group : eligible(cell)) {
+      const Vec3 X = project_within(walk_[i], cell.groups[group].minimum, room);
+      const double stretch = (X - cell.groups[group].minimum).norm() / h_;
+      const double shortness = std::max(0.0, 1.0 - walk_[i].length / (kShortPiece * h_));
+      add(c, group, i, true, X, 0.01 * stretch * stretch + kShortPiece * shortness);
+      passable_[i] = true;
     }
   }
 

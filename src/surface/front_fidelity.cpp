@@ -53,14 +53,11 @@ Nearest nearest_on(const std::vector<ChainEdge>& chain, const Vec3& p) {
   return nearest;
 }
 
-/// Where a sample of the edge lies that is neither on the chain nor held.
-enum class Place { kOutside, kAtSurface, kBuried };
-
-Place place_of(const NearbySurface& nearby, const Vec3& p, double voxel) {
-  if (nearby.winding_number(p) <= 0) return Place::kOutside;
-  const double to_surface = nearby.distance(p);
-  if (to_surface <= kOnChain * voxel) return Place::kOutside;
-  return to_surface == voxel ? Place::kBuried : Place::kAtSurface;
+/// How deep a point lies inside the drawn surface, m: infinity beyond a voxel, 0 outside.
+double depth_of(const NearbySurface& nearby, const Vec3& p, double voxel) {
+  if (nearby.winding_number(p) <= 0) return 0.0;
+  const double depth = nearby.distance(p);
+  return depth < voxel ? depth : std::numeric_limits<double>::infinity();
 }
 
 bool holds(const std::vector<EdgePart>& parts, double along) {
@@ -86,6 +83,7 @@ void FrontFidelity::add(const FrontFidelity& other) {
   crease.add(other.crease);
   cut_end.add(other.cut_end);
   vertices.add(other.vertices);
+  covered.add(other.covered);
   buried += other.buried;
 }
 
@@ -103,13 +101,17 @@ FrontFidelity measure_front(const TissueSurface& surface, const DeformedSurface&
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (i > 0) along += (samples[i] - samples[i - 1]).norm();
     const Nearest nearest = nearest_on(chain, samples[i]);
-    const Place place = nearest.distance <= kOnChain * voxel || holds(held, along)
-                            ? Place::kAtSurface
-                            : place_of(nearby, samples[i], voxel);
-    if (place == Place::kBuried || (place == Place::kAtSurface && chain.empty()))
-      ++fidelity.buried;
-    else if (place == Place::kAtSurface)
+    const bool on_chain = nearest.distance <= kOnChain * voxel;
+    if (on_chain || (holds(held, along) && !chain.empty())) {
       (nearest.cut_end ? fidelity.cut_end : fidelity.crease).add(nearest.distance);
+      continue;
+    }
+    const double depth = depth_of(nearby, samples[i], voxel);
+    if (std::isinf(depth) || holds(held, along)) {
+      ++fidelity.buried;
+    } else if (depth > 0.0) {
+      fidelity.covered.add(depth);
+    }
   }
   return fidelity;
 }

@@ -12,6 +12,9 @@ namespace {
 /// Cells: rounding that still counts as on a boundary.
 constexpr double kOnBoundary = 1e-9;
 
+/// Cells: how near a face a piece runs along it.
+constexpr double kAlongFace = 0.05;
+
 /// Part of a piece's length at which projections keep off its ends.
 constexpr double kEndMargin = 0.05;
 
@@ -120,6 +123,21 @@ std::vector<FrontPiece> walk_dual_cells(const Lattice& lattice, const Polyline& 
     walk_segment(lattice, polyline[i], polyline[i + 1], pieces);
   if (!pieces.empty()) pieces.front().first = pieces.back().last = true;
   return pieces;
+}
+
+std::vector<Vec3i> cells_along(const Lattice& lattice, const FrontPiece& piece) {
+  std::vector<Vec3i> cells{piece.cell};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto runs_along = [&](int face) {
+      return std::all_of(piece.points.begin(), piece.points.end(), [&](const Vec3& X) {
+        return std::abs(to_cells(lattice, X)[axis] - piece.cell[axis] - face) < kAlongFace;
+      });
+    };
+    const int way = runs_along(0) ? -1 : runs_along(1) ? 1 : 0;
+    for (std::size_t i = 0, count = cells.size(); way != 0 && i < count; ++i)
+      cells.push_back(cells[i] + way * Vec3i::Unit(axis));
+  }
+  return cells;
 }
 
 Vec3 project_within(const FrontPiece& piece, const Vec3& query, const Box& room) {

@@ -75,6 +75,11 @@ std::vector<Cut> cuts() {
     all.push_back({"level", voxel, Vec3(0, 0.06, 0), {at(0.0331, -0.014, 0.034), at(0.0331, -0.014, 0.008)}});
     all.push_back(
         {"tilted", voxel, Vec3(0.02, 0.06, 0.012), {at(0.022, -0.013, 0.031), at(0.022, -0.013, 0.004)}});
+    const double centre = (std::floor(0.033 / voxel) + 0.5) * voxel;
+    all.push_back({"through_centres",
+                   voxel,
+                   Vec3(0.0, 0.06, 0.012),
+                   {at(centre, -0.013, 0.031), at(centre, -0.013, 0.004)}});
   }
   return all;
 }

@@ -97,6 +97,23 @@ TEST_F(OwnCut, goes_on_where_a_single_stroke_would_have) {
             1);
 }
 
+/// The upper half of the edge goes through the first draw's cut.
+TEST(OwnCutDrawn, is_deepened_by_a_second_draw) {
+  SimulationConfig config = box_config();
+  config.tissue.fixed = {GripConfig{Box(Vec3(-1, -1, -1), Vec3(1, 1, 0.001)), Vec3::Zero(), 1.0, ""}};
+  Simulation simulation =
+      make_simulation(config, make_blade({Vec3::Zero(), Vec3(0, 0.016, -0.016)}, Vec3(0, 0.6, 1), 0.0));
+  drive(simulation, {at(kX, 0.034, 0.031), at(kX, -0.018, 0.031), at(kX, -0.018, 0.05)}, kSpeed);
+  const std::int64_t links = simulation.volume().severed_count();
+  ASSERT_GT(links, 0);
+  FrontFidelity second;
+  drive(simulation, {at(kX, 0.034, 0.05), at(kX, 0.034, 0.022), at(kX, -0.018, 0.022)}, 4.0 * kSpeed,
+        [&](const StepReport&) { second.add(simulation.front_fidelity()); });
+  EXPECT_GT(simulation.volume().severed_count(), links);
+  EXPECT_GT(second.cut_end.count, 100);
+  EXPECT_LT(second.cut_end.mean(), 0.01 * config.tissue.voxel_size.x());
+}
+
 TEST(OwnCutImmediate, is_not_cut_again) {
   SimulationConfig config = box_config();
   config.fracture.mode = FractureMode::kImmediate;

@@ -23,14 +23,17 @@ struct EdgePart {
 /// between vertices on the front; it is a cut end where one of them is in a sheet in which a cut ends, else a
 /// crease.
 ///
-/// The edge is sampled eight times a voxel. A sample counts where the blade holds tissue (between contact
-/// points), where it lies on the chain, and where it lies inside the drawn surface. Its distance is that to
-/// the chain. Samples inside that are farther than a voxel from all surface are in tissue where no link is
-/// severed yet, such as a stab narrower than a voxel: there is nothing to draw, and they are counted apart.
+/// The edge is sampled eight times a voxel. Where the blade holds tissue (between contact points) or a sample
+/// lies on the chain, its distance is that to the chain. Other samples inside the drawn surface are covered
+/// by tissue that the blade does not hold, such as the sides of its own slot where they lap over each other:
+/// the distance is that to the surface. Samples farther than a voxel from all surface, or held where there is
+/// no chain, are in tissue where no link is severed yet, such as a stab narrower than a voxel: there is
+/// nothing to draw, and they are counted apart.
 struct FrontFidelity {
   Distances crease;    ///< from the edge
   Distances cut_end;   ///< from the edge
   Distances vertices;  ///< from the vertices on the front to the edge
+  Distances covered;   ///< from the edge to the surface over it
   int buried = 0;      ///< samples in tissue without surface
   void add(const FrontFidelity& other);
 };
