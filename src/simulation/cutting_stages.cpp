@@ -31,9 +31,10 @@ void Simulation::State::meet(const FrontMotion& moved) {
   const double in_cut = 0.25 * volume.lattice().spacing.minCoeff();
   for (const Touch& touch : moved.touches) {
     if (contact.covers(touch.along) || cut_surface.distance(touch.X, in_cut) <= in_cut) continue;
+    const MaterialPoint place = pushed_in(touch);
     EdgeContactPoint point;
-    point.X = touch.X;
-    point.voxel = touch.voxel;
+    point.X = place.X;
+    point.voxel = place.voxel;
     point.along = touch.along;
     contact.bind(point);
   }
@@ -45,6 +46,27 @@ void Simulation::State::meet(const FrontMotion& moved) {
     return forward.dot(project(tracker.front().points, x_ref).point - x_ref) < -retreat;
   });
   if (is_out()) come_out();
+}
+
+/// What the blade meets at a touch. Beside bound points it has pushed the tissue in as far as there.
+MaterialPoint Simulation::State::pushed_in(const Touch& touch) const {
+  const double reach = 3.0 * contact_spacing();
+  Vec3 shift = Vec3::Zero();
+  double weights = 0.0;
+  for (const EdgeContactPoint& p : contact.points()) {
+    const double gap = std::abs(p.along - touch.along);
+    const std::optional<Vec3> on_front = tracker.material_at(p.along);
+    if (touch.enters || gap >= reach || !on_front) continue;
+    shift += (1.0 - gap / reach) * (p.X - *on_front);
+    weights += 1.0 - gap / reach;
+  }
+  const MaterialPoint at_touch{touch.X, touch.voxel};
+  if (weights == 0.0 || tissue_voxel_at(volume, touch.X) < 0) return at_touch;
+  const Vec3 X = touch.X + shift / weights;
+  const int voxel = tissue_voxel_at(volume, X);
+  if (voxel >= 0) return {X, voxel};
+  const Entry entry = find_entry(volume, X, touch.X);
+  return {entry.X, entry.voxel};
 }
 
 /// Beyond the tissue, or back from it. What the front has gone through is severed now, the rest waits no

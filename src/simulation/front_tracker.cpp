@@ -41,6 +41,7 @@ FrontMotion FrontTracker::move(const Pose& X_TB, const VoxelVolume& volume, cons
     const Entry entry = find_entry(volume, before[i]->X, t.X);
     t.X = entry.X;
     t.voxel = entry.voxel;
+    t.enters = true;
   }
   return motion;
 }
@@ -59,6 +60,14 @@ int FrontTracker::segment_at(double along) const {
   const std::vector<double> at = arc_lengths();
   const int next = static_cast<int>(std::upper_bound(at.begin(), at.end(), along) - at.begin());
   return std::clamp(next, 1, static_cast<int>(at.size()) - 1) - 1;
+}
+
+std::optional<Vec3> FrontTracker::material_at(double along) const {
+  const int i = segment_at(along);
+  if (!material_[i] || !material_[i + 1]) return std::nullopt;
+  const std::vector<double> at = arc_lengths();
+  const double part = std::clamp((along - at[i]) / (at[i + 1] - at[i]), 0.0, 1.0);
+  return material_[i]->X + part * (material_[i + 1]->X - material_[i]->X);
 }
 
 Vec3 FrontTracker::material_tangent(double along, int step) const {

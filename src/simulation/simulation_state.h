@@ -27,6 +27,7 @@ struct Simulation::State {
 
   // Parts of the stages.
   void meet(const FrontMotion& motion);
+  MaterialPoint pushed_in(const Touch& touch) const;
   void leave_tissue();
   void come_out();
   bool is_out() const { return contact.empty() && tracker.inside().empty(); }

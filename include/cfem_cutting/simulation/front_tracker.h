@@ -10,10 +10,11 @@ namespace cfem_cutting {
 
 /// A point of the front that lies in tissue.
 struct Touch {
-  double along;  ///< m, arc length on the edge from the heel
-  Vec3 on_edge;  ///< m, in T
-  Vec3 X;        ///< m, material: where it entered the skin in this motion, else where it is
-  int voxel;     ///< linked voxel that carries X
+  double along;         ///< m, arc length on the edge from the heel
+  Vec3 on_edge;         ///< m, in T
+  Vec3 X;               ///< m, material: where it entered the skin in this motion, else where it is
+  int voxel;            ///< linked voxel that carries X
+  bool enters = false;  ///< it was outside before this motion
 };
 
 /// What the front did in one motion, in material space.
@@ -62,6 +63,9 @@ class FrontTracker {
   /// @param along m, arc length of the start
   /// @return nothing if the start is not in tissue
   std::optional<FrontEnd> end_beyond(double along, int step, const VoxelVolume& volume) const;
+
+  /// Of the front at a place on it, m; nothing far from tissue.
+  std::optional<Vec3> material_at(double along) const;
 
   /// Unit, of the front in material space at a place on it, towards its heel (step −1) or tip (1); zero where
   /// it is far from tissue.
