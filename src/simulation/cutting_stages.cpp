@@ -28,9 +28,8 @@ void Simulation::State::meet(const FrontMotion& moved) {
   unit.collect(find_crossings(volume, cfem_cutting::sweep(moved.before, moved.after)));
   if (immediate()) return;
   const bool first_touch = contact.empty();
-  const double in_cut = 0.25 * volume.lattice().spacing.minCoeff();
   for (const Touch& touch : moved.touches) {
-    if (contact.covers(touch.along) || cut_surface.distance(touch.X, in_cut) <= in_cut) continue;
+    if (contact.covers(touch.along) || is_in_earlier_cut(touch)) continue;
     const MaterialPoint place = pushed_in(touch);
     EdgeContactPoint point;
     point.X = place.X;
@@ -46,6 +45,13 @@ void Simulation::State::meet(const FrontMotion& moved) {
     return forward.dot(project(tracker.front().points, x_ref).point - x_ref) < -retreat;
   });
   if (is_out()) come_out();
+}
+
+/// A cut that was there before this fracture goes on ahead of the edge.
+bool Simulation::State::is_in_earlier_cut(const Touch& touch) const {
+  const double near = 0.25 * volume.lattice().spacing.minCoeff();
+  const auto ahead = (*pull_back)(touch.on_edge + near * push());
+  return ahead && cut_surface.distance(ahead->X, near) <= near;
 }
 
 /// What the blade meets at a touch. Beside bound points it has pushed the tissue in as far as there.
@@ -174,13 +180,6 @@ void Simulation::State::advance_cut_end() {
     point.along = touch.along;
     contact.bind(point);
   }
-}
-
-/// Ahead of the edge there lies a cut from before this fracture.
-bool Simulation::State::is_in_earlier_cut(const Touch& touch) const {
-  const double near = 0.25 * volume.lattice().spacing.minCoeff();
-  const auto ahead = (*pull_back)(touch.on_edge + 2.0 * near * push());
-  return ahead && cut_surface.distance(ahead->X, near) <= near;
 }
 
 /// Figures of the new cut.

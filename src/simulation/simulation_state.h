@@ -27,6 +27,7 @@ struct Simulation::State {
 
   // Parts of the stages.
   void meet(const FrontMotion& motion);
+  bool is_in_earlier_cut(const Touch& touch) const;
   MaterialPoint pushed_in(const Touch& touch) const;
   void leave_tissue();
   void come_out();
@@ -35,7 +36,6 @@ struct Simulation::State {
   void let_go();
   void rebuild(const Fracture& fracture);
   void advance_cut_end();
-  bool is_in_earlier_cut(const Touch& touch) const;
   void describe(const Fracture& fracture, FractureEvent& event);
   void find_held();
   void refresh_reference();
