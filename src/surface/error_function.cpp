@@ -11,6 +11,9 @@ constexpr double kTruncation = 0.1;
 /// Beside a cut, the skin's planes fix a second direction if they differ by more than a crease of 33°.
 constexpr double kCrease = 0.3;
 
+/// Of the room's edges.
+constexpr double kMargin = 0.15;
+
 Vec3 clamp(const Vec3& X, const Box& room) { return X.cwiseMax(room.min()).cwiseMin(room.max()); }
 
 /// As far along a way from a point in the room as the room reaches.
@@ -21,6 +24,15 @@ Vec3 go(const Vec3& from, const Vec3& way, const Box& room) {
     if (std::abs(way[axis]) > std::abs(end)) part = std::min(part, end / way[axis]);
   }
   return from + part * way;
+}
+
+/// Where the skin's planes leave a choice, it keeps off the room's walls: vertices of neighbouring cells that
+/// meet there make needles.
+Vec3 minimum(const ErrorFunction& skin, const Vec3& start, const Box& room) {
+  const Vec3 X = clamp(start + skin.way_to_minimum(start, kTruncation), room);
+  const Vec3 margin = kMargin * room.sizes();
+  const Vec3 inwards = clamp(X, Box(room.min() + margin, room.max() - margin)) - X;
+  return clamp(X + skin.free_directions(kCrease) * inwards, room);
 }
 
 }  // namespace
@@ -64,8 +76,8 @@ Vec3 mean(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) 
 
 Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
   const Vec3 start = (skin.sum() + cut.sum()) / (skin.count() + cut.count());
-  if (skin.empty() || cut.empty())
-    return clamp(start + (skin.empty() ? cut : skin).way_to_minimum(start, kTruncation), room);
+  if (skin.empty()) return clamp(start + cut.way_to_minimum(start, kTruncation), room);
+  if (cut.empty()) return minimum(skin, start, room);
   const Vec3 on_skin = clamp(start + skin.way_to_minimum(start, kCrease), room);
   return go(on_skin, cut.way_to_minimum(on_skin, kTruncation, skin.free_directions(kCrease)), room);
 }
