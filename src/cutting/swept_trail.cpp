@@ -41,6 +41,10 @@ std::vector<SweptTriangle> SweptTrail::take() {
   return std::exchange(triangles_, {});
 }
 
+void SweptTrail::give_back(const std::vector<SweptTriangle>& uncut) {
+  triangles_.insert(triangles_.begin(), uncut.begin(), uncut.end());
+}
+
 void SweptTrail::drop() {
   row_.clear();
   last_.clear();

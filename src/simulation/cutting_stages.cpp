@@ -1,97 +1,10 @@
-// The stages that cut: sweep, judge, sever.
+// The stages that cut: judge, sever.
 
 #include <algorithm>
 
 #include "simulation_state.h"
 
 namespace cfem_cutting {
-
-void Simulation::State::sweep(const StepInput& input) {
-  motion = Pose::Identity();
-  bool anew = input.front_anew || !tracker.placed();
-  for (const Pose& X_TB : input.path) {
-    if (anew || travel(blade, tracker.pose(), X_TB) > config.blade.max_travel) {
-      leave_tissue();
-      tracker.place_anew(X_TB, *pull_back);
-      motion = Pose::Identity();
-      anew = false;
-    }
-    const Pose before = tracker.pose();
-    for (const Pose& pose : tracker.subdivide(X_TB)) meet(tracker.move(pose, volume, *pull_back));
-    motion = X_TB * before.inverse() * motion;
-  }
-}
-
-/// Collects the links that a motion meets, and binds points of the front that came into tissue.
-void Simulation::State::meet(const FrontMotion& moved) {
-  trail.follow(moved.before, moved.after);
-  unit.collect(find_crossings(volume, cfem_cutting::sweep(moved.before, moved.after)));
-  if (immediate()) return;
-  const bool first_touch = contact.empty();
-  for (const Touch& touch : moved.touches) {
-    if (contact.covers(touch.along) || is_in_earlier_cut(touch)) continue;
-    const MaterialPoint place = pushed_in(touch);
-    EdgeContactPoint point;
-    point.X = place.X;
-    point.voxel = place.voxel;
-    point.along = touch.along;
-    contact.bind(point);
-  }
-  if (first_touch && !contact.empty()) refresh_reference();
-  const Vec3 forward = push();
-  const double retreat = 0.5 * volume.lattice().spacing.minCoeff();
-  contact.release_if([&](const EdgeContactPoint& p) {
-    const Vec3 x_ref = model.mesh().embed(p.voxel, p.X).apply(reference);
-    return forward.dot(project(tracker.front().points, x_ref).point - x_ref) < -retreat;
-  });
-  if (is_out()) come_out();
-}
-
-/// A cut that was there before this fracture goes on ahead of the edge.
-bool Simulation::State::is_in_earlier_cut(const Touch& touch) const {
-  const double near = 0.25 * volume.lattice().spacing.minCoeff();
-  const auto ahead = (*pull_back)(touch.on_edge + near * push());
-  return ahead && cut_surface.distance(ahead->X, near) <= near;
-}
-
-/// What the blade meets at a touch. Beside bound points it has pushed the tissue in as far as there.
-MaterialPoint Simulation::State::pushed_in(const Touch& touch) const {
-  const double reach = 3.0 * contact_spacing();
-  Vec3 shift = Vec3::Zero();
-  double weights = 0.0;
-  for (const EdgeContactPoint& p : contact.points()) {
-    const double gap = std::abs(p.along - touch.along);
-    const std::optional<Vec3> on_front = tracker.material_at(p.along);
-    if (touch.enters || gap >= reach || !on_front) continue;
-    shift += (1.0 - gap / reach) * (p.X - *on_front);
-    weights += 1.0 - gap / reach;
-  }
-  const MaterialPoint at_touch{touch.X, touch.voxel};
-  if (weights == 0.0 || tissue_voxel_at(volume, touch.X) < 0) return at_touch;
-  const Vec3 X = touch.X + shift / weights;
-  const int voxel = tissue_voxel_at(volume, X);
-  if (voxel >= 0) return {X, voxel};
-  const Entry entry = find_entry(volume, X, touch.X);
-  return {entry.X, entry.voxel};
-}
-
-/// Beyond the tissue, or back from it. What the front has gone through is severed now, the rest waits no
-/// more.
-void Simulation::State::come_out() {
-  unit.drop_if([&](const Candidate& c) {
-    const int voxel = c.crossing.link.voxel;
-    const Vec3 x_ref = model.mesh().embed(voxel, volume.centre(voxel)).apply(reference);
-    return push().dot(project(tracker.front().points, x_ref).point - x_ref) <= 0.0;
-  });
-  unit.leave_behind();
-  if (unit.candidates().empty()) trail.drop();
-}
-
-void Simulation::State::leave_tissue() {
-  contact.clear();
-  unit.drop();
-  trail.drop();
-}
 
 /// A bound point's offset: it rides on the blade, so where the tissue can't follow (at a held base) the
 /// blade's way counts.
@@ -182,11 +95,40 @@ void Simulation::State::advance_cut_end() {
   }
 }
 
+/// Takes from the trail what is cut now: the rest stays until contact points ahead of which it lies are
+/// released.
+std::vector<SweptTriangle> Simulation::State::take_opened() {
+  std::vector<SweptTriangle> swept = trail.take();
+  const auto uncut = std::stable_partition(swept.begin(), swept.end(), [&](const SweptTriangle& t) {
+    return !is_ahead_of_cut_end((t.corners[0] + t.corners[1] + t.corners[2]) / 3.0);
+  });
+  trail.give_back({uncut, swept.end()});
+  swept.erase(uncut, swept.end());
+  return swept;
+}
+
+/// Between a contact point and the front that has pushed it in.
+bool Simulation::State::is_ahead_of_cut_end(const Vec3& X) const {
+  double nearest = 0.75 * contact_spacing();
+  bool ahead = false;
+  for (const EdgeContactPoint& p : contact.points()) {
+    const std::optional<Vec3> on_front = tracker.material_at(p.along);
+    if (!on_front) continue;
+    const Vec3 way = *on_front - p.X;
+    const double part = way.isZero(0.0) ? 0.0 : std::clamp((X - p.X).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    const double distance = (X - p.X - part * way).norm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    ahead = part > 0.0;
+  }
+  return ahead;
+}
+
 /// Figures of the new cut.
 void Simulation::State::describe(const Fracture& fracture, FractureEvent& event) {
   event.unit = unit.number;
   event.links_severed = static_cast<std::uint32_t>(fracture.severed.size());
-  const std::vector<SweptTriangle> swept = trail.take();
+  const std::vector<SweptTriangle> swept = take_opened();
   event.area = cut_surface.add(volume, swept);
   event.largest_offset = unit.largest_offset;
   event.blade_work = unit.blade_work;

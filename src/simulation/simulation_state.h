@@ -36,6 +36,8 @@ struct Simulation::State {
   void let_go();
   void rebuild(const Fracture& fracture);
   void advance_cut_end();
+  std::vector<SweptTriangle> take_opened();
+  bool is_ahead_of_cut_end(const Vec3& X) const;
   void describe(const Fracture& fracture, FractureEvent& event);
   void find_held();
   void refresh_reference();

@@ -207,5 +207,25 @@ TEST(Simulation, same_input_gives_identical_results) {
   EXPECT_EQ(traces[0].force, traces[1].force);
 }
 
+/// Where contact points stay, what the front swept ahead of them is dented, not cut.
+TEST(Simulation, area_of_a_fracture_is_that_behind_released_contact_points) {
+  SimulationConfig config = box_config();
+  config.fracture.onset_offset = 0.003;
+  config.fracture.release_offset = 0.0024;
+  Simulation simulation =
+      make_simulation(config, make_blade({Vec3(0, -0.03, -0.006), Vec3(0, 0.03, 0.006)}, Vec3::UnitZ(), 0.0));
+  std::vector<FractureEvent> events;
+  double area = 0.0;  // m²
+  drive(simulation, {at(0.0321, 0.016, 0.04), at(0.0321, 0.016, -0.01)}, 0.05, [&](const StepReport& report) {
+    events.insert(events.end(), report.events.begin(), report.events.end());
+    area = report.cut_area;
+  });
+  ASSERT_GT(events.size(), 3u);
+  EXPECT_GT(events.front().area, 0.0);
+  const double swept = 0.5 * 0.003 * 0.003 / 0.2;  // a triangle as deep as d0, under an edge of slope 0.2
+  EXPECT_LT(events.front().area, 0.75 * swept);
+  EXPECT_NEAR(area, 0.032 * 0.032, 0.02 * 0.032 * 0.032);
+}
+
 }  // namespace
 }  // namespace cfem_cutting

@@ -17,6 +17,9 @@ class SweptTrail {
   /// Takes the surface up to where the front is now, and goes on from there.
   std::vector<SweptTriangle> take();
 
+  /// Takes back what is not cut yet.
+  void give_back(const std::vector<SweptTriangle>& uncut);
+
   /// Forgets the surface and where the front was.
   void drop();
 
