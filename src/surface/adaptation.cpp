@@ -36,7 +36,8 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves) {
 
 void retract(Contour& contour, int cell, int group) {
   const Box room = room_in_cell(contour.volume().lattice(), contour.cells()[cell].index);
-  std::optional<Vec3>& X = contour.cells()[cell].groups[group].adapted;
+  SheetGroup& of_sheets = contour.cells()[cell].groups[group];
+  std::optional<Vec3>& X = of_sheets.adapted ? of_sheets.adapted : of_sheets.frozen;
   if (X) X = X->cwiseMax(room.min()).cwiseMin(room.max());
 }
 

@@ -28,6 +28,7 @@ void Mesher::build(const Contour& contour) {
   quads_.clear();
   anchors_.clear();
   chain_.clear();
+  adapted_.clear();
   direction_.clear();
   midpoint_of_arc_.clear();
   std::array<int, 8> none;
@@ -97,6 +98,7 @@ int Mesher::midpoint(const Contour& contour, const Polygon& polygon, int i) {
 int Mesher::add_fixed_vertex(const Vec3& X, int voxel, const Vec3i& cell) {
   surface_.vertices.push_back({X, voxel, cell});
   chain_.push_back(-1);
+  adapted_.push_back(0);
   anchors_.push_back({-1, -1});
   return static_cast<int>(surface_.vertices.size()) - 1;
 }
@@ -118,6 +120,7 @@ void Mesher::place(const Contour& contour, bool all) {
     SurfaceVertex& vertex = surface_.vertices[v];
     const SheetGroup& group = contour.cells()[anchors_[v].cell].groups[anchors_[v].group];
     vertex.cut_end = group.cut_end;
+    adapted_[v] = group.adapted || group.frozen;
     if (chain_[v] == group.chain && vertex.edge_end == group.edge_end && vertex.X == group.X()) continue;
     vertex.X = group.X();
     vertex.on_front = group.chain >= 0;
@@ -135,12 +138,12 @@ std::vector<Anchor> Mesher::turned() const {
   std::vector<Anchor> anchors;
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
     const auto& [a, b, c] = surface_.triangles[t];
-    if (chain_[a] < 0 && chain_[b] < 0 && chain_[c] < 0) continue;
+    if (!adapted_[a] && !adapted_[b] && !adapted_[c]) continue;
     const Vec3 &A = surface_.vertices[a].X, &B = surface_.vertices[b].X, &C = surface_.vertices[c].X;
     const double turn = shape(A, B, C, direction_[t] / 2);
     if (direction_[t] % 2 ? turn > 0.0 : shape(A, C, B, direction_[t] / 2) > 0.0) continue;
     for (const int v : {a, b, c})
-      if (chain_[v] >= 0) anchors.push_back(anchors_[v]);
+      if (adapted_[v]) anchors.push_back(anchors_[v]);
   }
   return anchors;
 }

@@ -21,7 +21,7 @@ class Mesher {
   /// Places the vertices and splits quads whose corners moved, or all.
   void place(const Contour& contour, bool all);
 
-  /// The vertices on the front of triangles that are turned or flat about their link.
+  /// The adapted vertices of triangles that are turned or flat about their link.
   std::vector<Anchor> turned() const;
 
   const TissueSurface& surface() const { return surface_; }
@@ -49,6 +49,7 @@ class Mesher {
   std::vector<Quad> quads_;
   std::vector<Anchor> anchors_;                      // per vertex; fixed ones have cell −1
   std::vector<int> chain_;                           // per vertex: SheetGroup::chain
+  std::vector<char> adapted_;                        // per vertex: it has a virtual intersection point
   std::vector<std::array<int, 8>> vertex_of_sheet_;  // per cell, −1
   std::unordered_map<std::int64_t, int> midpoint_of_arc_;
 };
