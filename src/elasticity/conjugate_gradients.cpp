@@ -1,6 +1,7 @@
 #include "conjugate_gradients.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -37,8 +38,8 @@ double free_load(const LinearSystem& system, const NodeField& b, const NodeField
   return norm(pool, r);
 }
 
-/// What conjugate gradients are preconditioned by, one after the other fails to be positive: rotations that
-/// differ much from element to element can make the smoother diverge.
+/// What conjugate gradients are preconditioned by, one after the other fails to be positive: with rotations
+/// that differ much from element to element a W-cycle may.
 enum class Preconditioner { kMultigrid, kAdaptedMultigrid, kNodeBlocks };
 
 struct Outcome {
@@ -94,6 +95,7 @@ Preconditioner next_after(Preconditioner failed, const LinearSystem& system) {
 
 SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx, double tolerance,
                   int max_iterations, double length, double least_load) {
+  assert(tolerance > 0.0);
   const double load = std::max(free_load(system, b, dx), least_load);
   const double rounding = kRounding * system.multigrid().finest().mean_stiffness() * length *
                           std::sqrt(static_cast<double>(dx.cols()));

@@ -77,7 +77,7 @@ class LevelSystem {
   Smoothing smoothing_{1, 0.1};
   std::vector<char> held_;
   double mean_at_rest_ = 0.0;  // N/m, of a node's diagonal in Σ K
-  double largest_ = 1.0;       // eigenvalue of (diag Σ K)⁻¹ Σ K
+  double largest_ = 1.0;       // of M⁻¹ A's eigenvalues, at rest or adapted
   Eigen::VectorXf node_diagonal_;
   float stiffness_factor_ = 1.0f;
   std::vector<ConstraintRow> constraints_;

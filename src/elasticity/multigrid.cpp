@@ -15,7 +15,7 @@ constexpr std::size_t kMostLevels = 12;
 /// Partly filled or cut elements need more work on coarse levels, but only where inertia (see LevelSystem) is
 /// less than this.
 constexpr double kLittleInertia = 0.01;
-constexpr Smoothing kFinest{2, 0.06}, kHeavy{3, 0.05}, kLight{5, 0.02};
+constexpr Smoothing kFinest{2, 0.06}, kWithInertia{3, 0.05}, kWithout{5, 0.02};
 
 std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constraints) {
   std::vector<ConstraintRow> rows;
@@ -89,9 +89,9 @@ void Multigrid::set(std::vector<Mat3> rotations, const SystemValues& values) {
         diagonal[fine.interpolation.node[i]] += fine.interpolation.weight[i] * fine.system.node_diagonal()[n];
     coarse.set(coarse_rotations(fine, elements.size()), std::move(diagonal), factor,
                coarse_constraints(fine, elements));
-    const bool light = coarse.inertia() < kLittleInertia;
-    coarse.smooth_with(light ? kLight : kHeavy);
-    levels_[l].cycles = light && l > 1 && l + 1 < levels_.size() ? 2 : 1;
+    const bool little = coarse.inertia() < kLittleInertia;
+    coarse.smooth_with(little ? kWithout : kWithInertia);
+    levels_[l].cycles = little && l > 1 && l + 1 < levels_.size() ? 2 : 1;
   }
   levels_.back().system.factorise();
 }

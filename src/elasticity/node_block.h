@@ -18,7 +18,7 @@ struct NodeBlock {
     return {sum[0], sum[1], sum[2], sum[3]};
   }
 
-  /// (factor A + more I)⁻¹, or zero if that is not positive definite beyond rounding
+  /// (factor A + more I)⁻¹; that of the diagonal alone if the whole is not positive definite beyond rounding
   NodeBlock inverse(double factor, double more) const {
     const Eigen::Vector3d d = (factor * diagonal.head<3>().cast<double>()).array() + more;
     const Eigen::Vector3d b = factor * beside.head<3>().cast<double>();
@@ -29,7 +29,11 @@ struct NodeBlock {
     const double determinant = d[0] * minors[0] + b[2] * others[2] + b[1] * others[1];
     const double size = d.sum();
     NodeBlock inverse;
-    if (!(size > 0.0) || !(determinant > kRounding * size * size * size)) return inverse;
+    if (!(size > 0.0)) return inverse;
+    if (!(minors[2] > 0.0) || !(determinant > kRounding * size * size * size)) {
+      inverse.diagonal.head<3>() = d.cwiseMax(kRounding * size).cwiseInverse().cast<float>();
+      return inverse;
+    }
     inverse.diagonal.head<3>() = (minors / determinant).cast<float>();
     inverse.beside.head<3>() = (others / determinant).cast<float>();
     return inverse;

@@ -95,40 +95,29 @@ void Simulation::State::advance_cut_end() {
   }
 }
 
-/// Takes from the trail what is cut now: the rest stays until contact points ahead of which it lies are
-/// released.
-std::vector<SweptTriangle> Simulation::State::take_opened() {
+/// Takes from the trail what is cut now: what lies behind released contact points, and around severed links.
+/// The rest is dented only and stays.
+std::vector<SweptTriangle> Simulation::State::take_opened(const Fracture& fracture) {
+  const std::vector<Dent> dents = find_dents();
+  const double around = 0.75 * volume.lattice().spacing.minCoeff();
   std::vector<SweptTriangle> swept = trail.take();
-  const auto uncut = std::stable_partition(swept.begin(), swept.end(), [&](const SweptTriangle& t) {
-    return !is_ahead_of_cut_end((t.corners[0] + t.corners[1] + t.corners[2]) / 3.0);
-  });
+  const auto is_opened = [&](const SweptTriangle& t) {
+    const Vec3 X = t.centroid();
+    const bool dented = std::any_of(dents.begin(), dents.end(), [&](const Dent& d) { return d.holds(X); });
+    return !dented || std::any_of(fracture.severed.begin(), fracture.severed.end(),
+                                  [&](const Crossing& c) { return (c.at.point - X).norm() < around; });
+  };
+  const auto uncut = std::stable_partition(swept.begin(), swept.end(), is_opened);
   trail.give_back({uncut, swept.end()});
   swept.erase(uncut, swept.end());
   return swept;
-}
-
-/// Between a contact point and the front that has pushed it in.
-bool Simulation::State::is_ahead_of_cut_end(const Vec3& X) const {
-  double nearest = 0.75 * contact_spacing();
-  bool ahead = false;
-  for (const EdgeContactPoint& p : contact.points()) {
-    const std::optional<Vec3> on_front = tracker.material_at(p.along);
-    if (!on_front) continue;
-    const Vec3 way = *on_front - p.X;
-    const double part = way.isZero(0.0) ? 0.0 : std::clamp((X - p.X).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    const double distance = (X - p.X - part * way).norm();
-    if (distance >= nearest) continue;
-    nearest = distance;
-    ahead = part > 0.0;
-  }
-  return ahead;
 }
 
 /// Figures of the new cut.
 void Simulation::State::describe(const Fracture& fracture, FractureEvent& event) {
   event.unit = unit.number;
   event.links_severed = static_cast<std::uint32_t>(fracture.severed.size());
-  const std::vector<SweptTriangle> swept = take_opened();
+  const std::vector<SweptTriangle> swept = take_opened(fracture);
   event.area = cut_surface.add(volume, swept);
   event.largest_offset = unit.largest_offset;
   event.blade_work = unit.blade_work;

@@ -26,9 +26,7 @@ const Vec3& nearer_to(const Vec3& query, const Vec3& a, const Vec3& b) {
 /// The blade pushes at it; or it would if the tissue had come to rest, as after a fracture.
 bool Simulation::State::holds(const EdgeContactPoint& p) const {
   if (p.active) return true;
-  const double least = -1e-3 * volume.lattice().spacing.minCoeff();
-  const Vec3 x_ref = model.mesh().embed(p.voxel, p.X).apply(reference);
-  return push().dot(project(tracker.front().points, x_ref).point - x_ref) >= least;
+  return pushed_by_front(p) >= -1e-3 * volume.lattice().spacing.minCoeff();
 }
 
 /// The trace goes on from a contact point to where the edge ends or leaves the tissue: there the front, or

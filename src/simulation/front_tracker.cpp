@@ -66,6 +66,7 @@ std::optional<Vec3> FrontTracker::material_at(double along) const {
   const int i = segment_at(along);
   if (!material_[i] || !material_[i + 1]) return std::nullopt;
   const std::vector<double> at = arc_lengths();
+  if (!(at[i + 1] > at[i])) return material_[i]->X;
   const double part = std::clamp((along - at[i]) / (at[i + 1] - at[i]), 0.0, 1.0);
   return material_[i]->X + part * (material_[i + 1]->X - material_[i]->X);
 }

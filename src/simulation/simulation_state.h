@@ -9,6 +9,7 @@
 #include "cfem_cutting/simulation/front_tracker.h"
 #include "cfem_cutting/simulation/grips.h"
 #include "cfem_cutting/simulation/simulation.h"
+#include "dent.h"
 
 namespace cfem_cutting {
 
@@ -28,16 +29,19 @@ struct Simulation::State {
   // Parts of the stages.
   void meet(const FrontMotion& motion);
   bool is_in_earlier_cut(const Touch& touch) const;
-  MaterialPoint pushed_in(const Touch& touch) const;
+  MaterialPoint pushed_in(const Touch& touch, const std::vector<Dent>& dents) const;
+  std::vector<Dent> find_dents() const;
+  double pushed_by_front(const EdgeContactPoint& p) const;
+  void forget_dent(const EdgeContactPoint& p);
   void leave_tissue();
+  void release_left_points();
   void come_out();
   bool is_out() const { return contact.empty() && tracker.inside().empty(); }
   bool advances(const Fracture& fracture, const OffsetField& offsets) const;
   void let_go();
   void rebuild(const Fracture& fracture);
   void advance_cut_end();
-  std::vector<SweptTriangle> take_opened();
-  bool is_ahead_of_cut_end(const Vec3& X) const;
+  std::vector<SweptTriangle> take_opened(const Fracture& fracture);
   void describe(const Fracture& fracture, FractureEvent& event);
   void find_held();
   void refresh_reference();
@@ -50,6 +54,7 @@ struct Simulation::State {
   bool holds(const EdgeContactPoint& p) const;
   void extend(const EdgeContactPoint& last, int step, Trace& trace) const;
   std::vector<EdgePart> held_parts() const;
+  double dent_radius() const { return 0.75 * contact_spacing(); }  ///< m, half the widest gap
   double contact_spacing() const { return 0.5 * volume.lattice().spacing.minCoeff(); }
   Vec3 push() const;
   void take_wrench();

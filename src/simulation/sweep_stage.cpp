@@ -1,5 +1,6 @@
 // The stage that sweeps: what the blade meets on its way, and what it leaves.
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulation_state.h"
@@ -28,9 +29,10 @@ void Simulation::State::meet(const FrontMotion& moved) {
   unit.collect(find_crossings(volume, cfem_cutting::sweep(moved.before, moved.after)));
   if (immediate()) return;
   const bool first_touch = contact.empty();
+  const std::vector<Dent> dents = find_dents();
   for (const Touch& touch : moved.touches) {
     if (contact.covers(touch.along) || is_in_earlier_cut(touch)) continue;
-    const MaterialPoint place = pushed_in(touch);
+    const MaterialPoint place = pushed_in(touch, dents);
     EdgeContactPoint point;
     point.X = place.X;
     point.voxel = place.voxel;
@@ -38,13 +40,42 @@ void Simulation::State::meet(const FrontMotion& moved) {
     contact.bind(point);
   }
   if (first_touch && !contact.empty()) refresh_reference();
-  const Vec3 forward = push();
+  release_left_points();
+  if (is_out()) come_out();
+}
+
+/// The blade has drawn back from them; what it had swept beyond is not cut.
+void Simulation::State::release_left_points() {
   const double retreat = 0.5 * volume.lattice().spacing.minCoeff();
   contact.release_if([&](const EdgeContactPoint& p) {
-    const Vec3 x_ref = model.mesh().embed(p.voxel, p.X).apply(reference);
-    return forward.dot(project(tracker.front().points, x_ref).point - x_ref) < -retreat;
+    const bool left = pushed_by_front(p) < -retreat;
+    if (left) forget_dent(p);
+    return left;
   });
-  if (is_out()) come_out();
+}
+
+/// How far the edge is beyond a contact point at rest, m.
+double Simulation::State::pushed_by_front(const EdgeContactPoint& p) const {
+  const Vec3 x_ref = model.mesh().embed(p.voxel, p.X).apply(reference);
+  return push().dot(project(tracker.front().points, x_ref).point - x_ref);
+}
+
+void Simulation::State::forget_dent(const EdgeContactPoint& p) {
+  const std::optional<Vec3> on_front = tracker.material_at(p.along);
+  if (!on_front) return;
+  const Vec3 beyond = (p.X - *on_front).normalized();
+  const Dent dent{p.along, p.X, 2.0 * block * beyond, dent_radius()};
+  trail.drop_if([&](const SweptTriangle& t) { return dent.holds(t.centroid()); });
+}
+
+std::vector<Dent> Simulation::State::find_dents() const {
+  std::vector<Dent> dents;
+  for (const EdgeContactPoint& p : contact.points()) {
+    const std::optional<Vec3> on_front = tracker.material_at(p.along);
+    if (!on_front || *on_front == p.X || pushed_by_front(p) <= 0.0) continue;
+    dents.push_back({p.along, p.X, *on_front - p.X, dent_radius()});
+  }
+  return dents;
 }
 
 /// A cut that was there before this fracture goes on ahead of the edge.
@@ -54,21 +85,20 @@ bool Simulation::State::is_in_earlier_cut(const Touch& touch) const {
   return ahead && cut_surface.distance(ahead->X, near) <= near;
 }
 
-/// What the blade meets at a touch. Beside bound points it has pushed the tissue in as far as there.
-MaterialPoint Simulation::State::pushed_in(const Touch& touch) const {
-  const double reach = 3.0 * contact_spacing();
-  Vec3 shift = Vec3::Zero();
-  double weights = 0.0;
-  for (const EdgeContactPoint& p : contact.points()) {
-    const double gap = std::abs(p.along - touch.along);
-    const std::optional<Vec3> on_front = tracker.material_at(p.along);
-    if (touch.enters || gap >= reach || !on_front) continue;
-    shift += (1.0 - gap / reach) * (p.X - *on_front);
-    weights += 1.0 - gap / reach;
-  }
+/// What the blade meets at a touch. Beside dents it has pushed the tissue in as far as there.
+MaterialPoint Simulation::State::pushed_in(const Touch& touch, const std::vector<Dent>& dents) const {
   const MaterialPoint at_touch{touch.X, touch.voxel};
-  if (weights == 0.0 || tissue_voxel_at(volume, touch.X) < 0) return at_touch;
-  const Vec3 X = touch.X + shift / weights;
+  if (touch.enters || tissue_voxel_at(volume, touch.X) < 0) return at_touch;
+  const double reach = 3.0 * contact_spacing();
+  Vec3 way = Vec3::Zero();
+  double weights = 0.0;
+  for (const Dent& dent : dents) {
+    const double weight = std::max(0.0, 1.0 - std::abs(dent.along - touch.along) / reach);
+    way += weight * dent.way;
+    weights += weight;
+  }
+  if (weights == 0.0) return at_touch;
+  const Vec3 X = touch.X - way / weights;
   const int voxel = tissue_voxel_at(volume, X);
   if (voxel >= 0) return {X, voxel};
   const Entry entry = find_entry(volume, X, touch.X);

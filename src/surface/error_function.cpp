@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kTruncation = 0.1;
 
-/// Beside a cut, the skin's planes fix a second direction if they differ by more than a crease of 33°.
+/// Beside a cut, and where a vertex is near its cell's walls, the skin's planes fix a second direction only
+/// if they differ by more than a crease of 33°.
 constexpr double kCrease = 0.3;
 
 /// Of the room's edges.
@@ -26,8 +27,8 @@ Vec3 go(const Vec3& from, const Vec3& way, const Box& room) {
   return from + part * way;
 }
 
-/// Where the skin's planes leave a choice, it keeps off the room's walls: vertices of neighbouring cells that
-/// meet there make needles.
+/// Off the room's walls along directions that the skin's planes hardly fix: vertices of neighbouring cells
+/// that meet there make needles.
 Vec3 minimum(const ErrorFunction& skin, const Vec3& start, const Box& room) {
   const Vec3 X = clamp(start + skin.way_to_minimum(start, kTruncation), room);
   const Vec3 margin = kMargin * room.sizes();

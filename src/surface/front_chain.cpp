@@ -26,7 +26,6 @@ constexpr double kReach = 2.0;
 struct Node {
   int cell = -1, group = -1;
   int piece = 0;          // of the walk, the nearest
-  bool on_walk = false;   // the piece runs through the cell
   Vec3 X = Vec3::Zero();  // m, on the trace
   double along = 0.0;     // m, on the trace
   double cost = 0.0;
@@ -93,7 +92,7 @@ class ChainFinder {
       const Vec3 X = project_within(walk_[i], cell.groups[group].minimum, room);
       const double stretch = (X - cell.groups[group].minimum).norm() / h_;
       const double shortness = std::max(0.0, 1.0 - walk_[i].length / (kShortPiece * h_));
-      add(c, group, i, true, X, 0.01 * stretch * stretch + kShortPiece * shortness);
+      nodes_.push_back(make(c, group, i, X, 0.01 * stretch * stretch + kShortPiece * shortness));
       passable_[i] = true;
     }
   }
@@ -119,23 +118,18 @@ class ChainFinder {
     const double stretch = (X - minimum).norm() / h_;
     const auto [at, fresh] = best.try_emplace({c, group, 0}, stretch, Node{});
     if (!fresh && at->second.first <= stretch) return;
-    at->second = {stretch, make(c, group, piece, false, X, kDetour + stretch * stretch)};
+    at->second = {stretch, make(c, group, piece, X, kDetour + stretch * stretch)};
   }
 
-  Node make(int cell, int group, std::size_t piece, bool on_walk, const Vec3& X, double cost) const {
+  Node make(int cell, int group, std::size_t piece, const Vec3& X, double cost) const {
     Node node;
     node.cell = cell;
     node.group = group;
     node.piece = static_cast<int>(piece);
-    node.on_walk = on_walk;
     node.X = X;
     node.along = from_[piece] + along_in(walk_[piece].points, X);
     node.cost = cost;
     return node;
-  }
-
-  void add(int cell, int group, std::size_t piece, bool on_walk, const Vec3& X, double cost) {
-    nodes_.push_back(make(cell, group, piece, on_walk, X, cost));
   }
 
   static double along_in(const Polyline& points, const Vec3& X) {

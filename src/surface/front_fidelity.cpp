@@ -10,7 +10,7 @@ namespace cfem_cutting {
 namespace {
 
 constexpr double kSample = 0.125;   // of a voxel, along the edge
-constexpr double kOnChain = 0.005;  // of a voxel
+constexpr double kOnChain = 0.005;  // of a voxel: nearer is on the chain or on the surface
 
 /// An edge of the surface along the front.
 struct ChainEdge {
@@ -109,7 +109,7 @@ FrontFidelity measure_front(const TissueSurface& surface, const DeformedSurface&
     const double depth = depth_of(nearby, samples[i], voxel);
     if (std::isinf(depth) || holds(held, along)) {
       ++fidelity.buried;
-    } else if (depth > 0.0) {
+    } else if (depth > kOnChain * voxel) {
       fidelity.covered.add(depth);
     }
   }

@@ -127,6 +127,7 @@ std::vector<FrontPiece> walk_dual_cells(const Lattice& lattice, const Polyline& 
 
 std::vector<Vec3i> cells_along(const Lattice& lattice, const FrontPiece& piece) {
   std::vector<Vec3i> cells{piece.cell};
+  if (piece.length < 2.0 * kAlongFace * lattice.spacing.minCoeff()) return cells;
   for (int axis = 0; axis < 3; ++axis) {
     const auto runs_along = [&](int face) {
       return std::all_of(piece.points.begin(), piece.points.end(), [&](const Vec3& X) {

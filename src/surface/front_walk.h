@@ -23,8 +23,8 @@ Vec3i dual_cell_at(const Lattice& lattice, const Vec3& X);
 /// polyline on a boundary between cells is in the one of larger index.
 std::vector<FrontPiece> walk_dual_cells(const Lattice& lattice, const Polyline& polyline);
 
-/// The cell of a piece, and those beyond faces on which, but for a twentieth of a cell, the whole piece lies:
-/// a cut along a plane through voxels' centres may be in the links on either side.
+/// The cell of a piece, and those beyond faces along which it runs, to a twentieth of a cell: a cut along a
+/// plane through voxels' centres may be in the links on either side.
 std::vector<Vec3i> cells_along(const Lattice& lattice, const FrontPiece& piece);
 
 /// The point of a piece nearest to a query. It keeps a part of the piece's length off ends at which the

@@ -10,7 +10,8 @@ namespace cfem_cutting {
 
 /// A piece of the swept surface in material space.
 struct SweptTriangle {
-  std::array<Vec3, 3> corners;  ///< m
+  std::array<Vec3, 3> corners;                                                    ///< m
+  Vec3 centroid() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }  ///< m
   Vec3 normal() const {
     return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   }  ///< length: twice the area

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "cfem_cutting/cutting/sweep.h"
 
 namespace cfem_cutting {
@@ -16,6 +18,12 @@ class SweptTrail {
 
   /// Takes the surface up to where the front is now, and goes on from there.
   std::vector<SweptTriangle> take();
+
+  /// Forgets triangles for which `is_left` is true.
+  template <typename Predicate>
+  void drop_if(Predicate is_left) {
+    triangles_.erase(std::remove_if(triangles_.begin(), triangles_.end(), is_left), triangles_.end());
+  }
 
   /// Takes back what is not cut yet.
   void give_back(const std::vector<SweptTriangle>& uncut);
