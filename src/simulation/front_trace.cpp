@@ -1,5 +1,7 @@
 // The material curve on which the surface meets the blade's edge.
 
+#include <algorithm>
+
 #include "simulation_state.h"
 
 namespace cfem_cutting {
@@ -19,6 +21,12 @@ Vec3 go_in_tissue(const VoxelVolume& volume, const Vec3& from, const Vec3& way) 
 
 const Vec3& nearer_to(const Vec3& query, const Vec3& a, const Vec3& b) {
   return (a - query).norm() <= (b - query).norm() ? a : b;
+}
+
+/// Near each other on the edge, and in the tissue: two parts of it may lie side by side under the blade.
+bool are_neighbours(const EdgeContactPoint& a, const EdgeContactPoint& b, double spacing) {
+  const double gap = b.along - a.along;
+  return gap < 3.0 * spacing && (b.X - a.X).norm() < 3.0 * std::max(gap, spacing);
 }
 
 }  // namespace
@@ -58,7 +66,7 @@ FrontTrace Simulation::State::front_trace() {
     last = nullptr;
   };
   for (const EdgeContactPoint& p : contact.points()) {
-    if (last && (!holds(p) || p.along - last->along >= 3.0 * contact_spacing())) close();
+    if (last && (!holds(p) || !are_neighbours(*last, p, contact_spacing()))) close();
     if (!holds(p)) continue;
     if (last) {
       held.push_back({{last->X, last->voxel}, {p.X, p.voxel}});
