@@ -114,11 +114,13 @@ class Cuts(ReplayTest):
             self.assertTrue(summary["surface"]["closed"] and summary["surface"]["manifold"], config)
 
     def test_crease_and_cut_end_are_on_the_edge_on_liver_and_bunny(self):
-        # Straight edges in the tissue's frame: across the liver's front, and with the tip in the bunny's back.
+        # Straight edges in the tissue's frame: across the liver's front, across the bunny, and with the tip in its back.
         across = ["blade.edge=[[0,0,0],[0,0.0199,0.199]]", "blade.back=[0,-1,0]"]
         tip = ["blade.edge=[[0,0,0],[0,-0.01582,0.0231]]", "blade.back=[0,0.825,0.565]"]
+        over = ["blade.edge=[[0,0,0],[0.1193,0.00597,0.01193]]", "blade.back=[0,1,0]"]
         cuts = (("liver", 0.008, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
                 ("liver", 0.004, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
+                ("bunny", 0.004, over, [(-0.06, 0.05, -0.012), (-0.06, 0.0, -0.012)]),
                 ("bunny", 0.004, tip, [(0.02, 0.036, 0.012), (0.02, 0.018, 0.01), (0.02, 0.017, -0.04)]))
         for config, voxel, blade, waypoints in cuts:
             write_path(self.path("poses.csv"), waypoints)
