@@ -27,13 +27,12 @@ Vec3 go(const Vec3& from, const Vec3& way, const Box& room) {
   return from + part * way;
 }
 
-/// Off the room's walls along directions that the skin's planes hardly fix: vertices of neighbouring cells
-/// that meet there make needles.
-Vec3 minimum(const ErrorFunction& skin, const Vec3& start, const Box& room) {
-  const Vec3 X = clamp(start + skin.way_to_minimum(start, kTruncation), room);
+/// Off the room's walls along directions that the planes hardly fix: vertices of neighbouring cells that meet
+/// there make needles.
+Vec3 keep_off_walls(const Vec3& X, const ErrorFunction& planes, const Box& room) {
   const Vec3 margin = kMargin * room.sizes();
   const Vec3 inwards = clamp(X, Box(room.min() + margin, room.max() - margin)) - X;
-  return clamp(X + skin.free_directions(kCrease) * inwards, room);
+  return clamp(X + planes.free_directions(kCrease) * inwards, room);
 }
 
 }  // namespace
@@ -44,6 +43,15 @@ void ErrorFunction::add(const SurfacePoint& plane) {
   AtA_ += plane.normal * plane.normal.transpose();
   Atb_ += plane.normal * plane.normal.dot(p);
   sum_ += p;
+}
+
+ErrorFunction operator+(ErrorFunction a, const ErrorFunction& b) {
+  const Vec3 shift = b.first_ - a.first_;
+  a.Atb_ += b.Atb_ + b.AtA_ * shift;
+  a.AtA_ += b.AtA_;
+  a.sum_ += b.sum_ + b.count_ * shift;
+  a.count_ += b.count_;
+  return a;
 }
 
 Vec3 ErrorFunction::way_to_minimum(const Vec3& X, double truncation, const Mat3& allowed) const {
@@ -78,9 +86,12 @@ Vec3 mean(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) 
 Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
   const Vec3 start = (skin.sum() + cut.sum()) / (skin.count() + cut.count());
   if (skin.empty()) return clamp(start + cut.way_to_minimum(start, kTruncation), room);
-  if (cut.empty()) return minimum(skin, start, room);
+  if (cut.empty())
+    return keep_off_walls(clamp(start + skin.way_to_minimum(start, kTruncation), room), skin, room);
   const Vec3 on_skin = clamp(start + skin.way_to_minimum(start, kCrease), room);
-  return go(on_skin, cut.way_to_minimum(on_skin, kTruncation, skin.free_directions(kCrease)), room);
+  const Vec3 on_both =
+      go(on_skin, cut.way_to_minimum(on_skin, kTruncation, skin.free_directions(kCrease)), room);
+  return keep_off_walls(on_both, skin + cut, room);
 }
 
 }  // namespace cfem_cutting

@@ -9,6 +9,9 @@ class ErrorFunction {
  public:
   void add(const SurfacePoint& plane);
 
+  /// Of the planes of both, which have some.
+  friend ErrorFunction operator+(ErrorFunction a, const ErrorFunction& b);
+
   bool empty() const { return count_ == 0; }
   int count() const { return count_; }
   Vec3 sum() const { return count_ * first_ + sum_; }  ///< m, of the crossings
