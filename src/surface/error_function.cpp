@@ -27,12 +27,12 @@ Vec3 go(const Vec3& from, const Vec3& way, const Box& room) {
   return from + part * way;
 }
 
-/// Off the room's walls along directions that the planes hardly fix: vertices of neighbouring cells that meet
-/// there make needles.
-Vec3 keep_off_walls(const Vec3& X, const ErrorFunction& planes, const Box& room) {
+/// The way off the room's walls along directions that the planes hardly fix: vertices of neighbouring cells
+/// that meet there make needles.
+Vec3 way_off_walls(const Vec3& X, const ErrorFunction& planes, double truncation, const Box& room) {
   const Vec3 margin = kMargin * room.sizes();
   const Vec3 inwards = clamp(X, Box(room.min() + margin, room.max() - margin)) - X;
-  return clamp(X + planes.free_directions(kCrease) * inwards, room);
+  return planes.free_directions(truncation) * inwards;
 }
 
 }  // namespace
@@ -85,13 +85,15 @@ Vec3 mean(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) 
 
 Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
   const Vec3 start = (skin.sum() + cut.sum()) / (skin.count() + cut.count());
-  if (skin.empty()) return clamp(start + cut.way_to_minimum(start, kTruncation), room);
-  if (cut.empty())
-    return keep_off_walls(clamp(start + skin.way_to_minimum(start, kTruncation), room), skin, room);
+  if (skin.empty() || cut.empty()) {
+    const ErrorFunction& planes = skin.empty() ? cut : skin;
+    const Vec3 X = clamp(start + planes.way_to_minimum(start, kTruncation), room);
+    return skin.empty() ? go(X, way_off_walls(X, cut, kTruncation, room), room)  // stays in a plane
+                        : clamp(X + way_off_walls(X, skin, kCrease, room), room);
+  }
   const Vec3 on_skin = clamp(start + skin.way_to_minimum(start, kCrease), room);
-  const Vec3 on_both =
-      go(on_skin, cut.way_to_minimum(on_skin, kTruncation, skin.free_directions(kCrease)), room);
-  return keep_off_walls(on_both, skin + cut, room);
+  const Vec3 X = go(on_skin, cut.way_to_minimum(on_skin, kTruncation, skin.free_directions(kCrease)), room);
+  return clamp(X + way_off_walls(X, skin + cut, kCrease, room), room);
 }
 
 }  // namespace cfem_cutting

@@ -33,9 +33,9 @@ class ErrorFunction {
 };
 
 /// The minimum of skin and cut planes in a box that holds the crossings. The skin comes first: a cut must not
-/// move it, so the cut's planes only decide where the skin leaves a choice. Either may be empty, not both.
-/// Without a cut, a minimum near the box's walls gives way along directions that the skin hardly fixes
-/// (creases under 33°).
+/// move it, so the cut's planes only decide where the skin leaves a choice (else the volume changes by up to
+/// 2.5 %). Near the box's walls the minimum gives way along directions that the planes hardly fix: those of a
+/// cut, and of skin with creases under 33°. Either may be empty, not both.
 Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room);
 
 /// The mean of the crossings, as far as a box allows.
