@@ -87,7 +87,7 @@ bool Simulation::State::is_in_earlier_cut(const Touch& touch) const {
 
 /// What the blade meets at a touch. Beside dents it has pushed the tissue in as far as there.
 MaterialPoint Simulation::State::pushed_in(const Touch& touch, const std::vector<Dent>& dents) const {
-  const MaterialPoint at_touch{touch.X, touch.voxel};
+  MaterialPoint at_touch{touch.X, touch.voxel};
   if (touch.enters || tissue_voxel_at(volume, touch.X) < 0) return at_touch;
   const double reach = 3.0 * contact_spacing();
   Vec3 way = Vec3::Zero();

@@ -142,7 +142,7 @@ std::vector<Vec3i> cells_along(const Lattice& lattice, const FrontPiece& piece) 
 }
 
 Vec3 project_within(const FrontPiece& piece, const Vec3& query, const Box& room) {
-  const Vec3 nearest = project_between_ends(piece, query);
+  Vec3 nearest = project_between_ends(piece, query);
   if (room.contains(nearest)) return nearest;
   const std::optional<Vec3> in_room = nearest_in(room, piece.points, query);
   return in_room ? *in_room : Vec3(nearest.cwiseMax(room.min()).cwiseMin(room.max()));
