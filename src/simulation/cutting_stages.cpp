@@ -81,17 +81,13 @@ void Simulation::State::rebuild(const Fracture& fracture) {
   refresh_reference();
 }
 
-/// The cut ends at the front now: the surface keeps its end there, and the blade binds there anew.
+/// The cut ends at the front now: the surface keeps its end there, and the blade binds there anew (before
+/// this cut counts as an earlier one).
 void Simulation::State::advance_cut_end() {
   extractor.freeze();
   if (immediate()) return;
   for (const Touch& touch : tracker.inside()) {
-    if (contact.covers(touch.along) || is_in_earlier_cut(touch)) continue;
-    EdgeContactPoint point;
-    point.X = touch.X;
-    point.voxel = touch.voxel;
-    point.along = touch.along;
-    contact.bind(point);
+    if (!contact.covers(touch.along) && !is_in_earlier_cut(touch)) bind({touch.X, touch.voxel}, touch.along);
   }
 }
 

@@ -32,16 +32,19 @@ void Simulation::State::meet(const FrontMotion& moved) {
   const std::vector<Dent> dents = find_dents();
   for (const Touch& touch : moved.touches) {
     if (contact.covers(touch.along) || is_in_earlier_cut(touch)) continue;
-    const MaterialPoint place = pushed_in(touch, dents);
-    EdgeContactPoint point;
-    point.X = place.X;
-    point.voxel = place.voxel;
-    point.along = touch.along;
-    contact.bind(point);
+    bind(pushed_in(touch, dents), touch.along);
   }
   if (first_touch && !contact.empty()) refresh_reference();
   release_left_points();
   if (is_out()) come_out();
+}
+
+void Simulation::State::bind(const MaterialPoint& place, double along) {
+  EdgeContactPoint point;
+  point.X = place.X;
+  point.voxel = place.voxel;
+  point.along = along;
+  contact.bind(point);
 }
 
 /// The blade has drawn back from them; what it had swept beyond is not cut.
