@@ -102,10 +102,25 @@ class ElementTiles {
       const int* const last = first.data() + 1;
       const Index* term = terms.data() + first[begin];
       for (int i = begin; i < end; ++i) {
-        Quad sum = quads[*term++];
-        for (const Index* const stop = terms.data() + last[i]; term != stop; ++term) sum += quads[*term];
-        finish(node[i], sum);
+        const Index* const stop = terms.data() + last[i];
+        finish(node[i], stop - term == 8 ? sum_of_eight(quads, term) : sum_of(quads, term, stop));
+        term = stop;
       }
+    }
+
+   private:
+    template <typename Quad>
+    static Quad sum_of(const Quad* quads, const Index* term, const Index* stop) {
+      Quad sum = quads[*term];
+      while (++term != stop) sum += quads[*term];
+      return sum;
+    }
+
+    /// Most nodes are corners of eight elements.
+    template <typename Quad>
+    static Quad sum_of_eight(const Quad* quads, const Index* term) {
+      const auto pair = [&](int i) { return quads[term[i]] + quads[term[i + 1]]; };
+      return (pair(0) + pair(2)) + (pair(4) + pair(6));
     }
   };
 
