@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "first_guess.h"
 #include "node_loops.h"
 
 namespace cfem_cutting {
@@ -47,14 +48,13 @@ struct Outcome {
   bool broke_down = false;  // the preconditioner is not positive
 };
 
-/// x ≈ A⁻¹ r by conjugate gradients until the residual, which r becomes, is `goal` at most.
+/// x on towards A⁻¹ b by conjugate gradients until its residual r is `goal` at most.
 Outcome conjugate_gradients(const LinearSystem& system, Preconditioner preconditioner, SingleField& r,
                             SingleField& x, double goal, int max_iterations) {
   const Multigrid& multigrid = system.multigrid();
   const int count = static_cast<int>(r.cols());
   const auto sum = [&](const auto& term) { return sum_over_nodes(multigrid.pool(), count, term); };
   SingleField z, p = SingleField::Zero(4, count), Ap;
-  x = SingleField::Zero(4, count);
   double rz = 1.0;
   double size = std::sqrt(sum([&](int n) { return r.col(n).squaredNorm(); }));
   Outcome outcome;
@@ -94,7 +94,7 @@ Preconditioner next_after(Preconditioner failed, const LinearSystem& system) {
 }  // namespace
 
 SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx, double tolerance,
-                  int max_iterations, double length, double least_load) {
+                  int max_iterations, double length, double least_load, std::vector<SingleField> directions) {
   assert(tolerance > 0.0);
   const double load = std::max(free_load(system, b, dx), least_load);
   const double rounding = kRounding * system.multigrid().finest().mean_stiffness() * length *
@@ -121,6 +121,9 @@ SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx,
     if (report.converged || report.iterations >= max_iterations || stagnates) return report;
     before = size;
     for_each_node(pool, dx.cols(), [&](int n) { scaled.col(n) << (r.col(n) / size).cast<float>(), 0.0f; });
+    change = SingleField::Zero(4, dx.cols());
+    minimise_over(system, std::move(directions), scaled, change);
+    directions.clear();
     const Outcome outcome = conjugate_gradients(system, preconditioner, scaled, change,
                                                 std::max(0.8 * tolerance * reference / size, kMostReduction),
                                                 max_iterations - report.iterations);

@@ -12,7 +12,9 @@ namespace cfem_cutting {
 /// @param max_iterations in total
 /// @param length m, of a block
 /// @param least_load N
+/// @param directions in which dx is improved first, see first_guess.h
 SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx, double tolerance,
-                  int max_iterations, double length, double least_load = 0.0);
+                  int max_iterations, double length, double least_load = 0.0,
+                  std::vector<SingleField> directions = {});
 
 }  // namespace cfem_cutting

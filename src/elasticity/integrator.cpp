@@ -2,6 +2,7 @@
 
 #include "conjugate_gradients.h"
 #include "equilibrium.h"
+#include "first_guess.h"
 #include "node_loops.h"
 #include "workspace.h"
 
@@ -31,8 +32,11 @@ SolveReport Integrator::step(const ElasticModel& model, ElasticState& state, dou
     dx.col(held.nodes[i]) = held.positions[i] - state.x.col(held.nodes[i]);
 
   SolveReport report = solve(system, b, dx, options_.tolerance, options_.max_iterations,
-                             model.mesh().block_size().mean(), gravity.norm() * model.mass().norm());
+                             model.mesh().block_size().mean(), gravity.norm() * model.mass().norm(), recent_changes(state, workspace_->pool));
   report.inverted_elements = elastic.inverted;
+  state.past_v[1].swap(state.past_v[0]);
+  state.past_v[0].swap(state.v);
+  state.v.resize(3, dx.cols());
   for_each_node(workspace_->pool, dx.cols(), [&](int n) {
     state.x.col(n) += dx.col(n);
     state.v.col(n) = dx.col(n) / dt;

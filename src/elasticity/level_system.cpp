@@ -169,24 +169,32 @@ void LevelSystem::correct_for_constraints(const Eigen::VectorXf& kept, SingleFie
   for (std::size_t i = 0; i < constraints_.size(); ++i) add_scaled_to_nodes(constraints_[i], -along[i], z);
 }
 
-/// One sweep of Chebyshev's iteration for A x = b: `before` becomes x + keep (x − before) + add M⁻¹ (b − A
-/// x).
+/// One sweep of Chebyshev's iteration for A x = b: `before` becomes x + keep (x − before) + add M⁻¹ (b − A x).
+/// @param from_zero `before` is zero, whatever it holds
 void LevelSystem::sweep(float keep, float add, const SingleField& b, const SingleField& x,
-                        SingleField& before) const {
+                        SingleField& before, bool from_zero) const {
   Eigen::VectorXf forces(constraints_.size()), kept(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const float at = constraints_[i].displacement(x);
     forces[i] = constraints_[i].stiffness * at;
-    kept[i] = at + (keep != 0.0f ? keep * (at - constraints_[i].displacement(before)) : 0.0f);
+    kept[i] = at + keep * (at - (from_zero ? 0.0f : constraints_[i].displacement(before)));
   }
   before.resize(4, x.cols());
-  product_.apply(x, [b = quads_of(b), x = quads_of(x), next = quads_of(before), inverse = inverse_.data(),
-                     d = node_diagonal_.data(), s = stiffness_factor_, keep, add](int n, const Quad& sum)
-                        CFEM_CUTTING_INLINE {
-                          const Quad residual = b[n] - (s * sum + d[n] * x[n]);
-                          const Quad start = keep != 0.0f ? Quad(x[n] + keep * (x[n] - next[n])) : x[n];
-                          next[n] = start + add * (inverse[n] * residual);
-                        });
+  const auto sweep_from = [&](const auto& start) {
+    product_.apply(x, [b = quads_of(b), x = quads_of(x), next = quads_of(before), inverse = inverse_.data(),
+                       d = node_diagonal_.data(), s = stiffness_factor_, add, start](int n, const Quad& sum)
+                          CFEM_CUTTING_INLINE {
+                            const Quad residual = b[n] - (s * sum + d[n] * x[n]);
+                            next[n] = start(x[n], next[n]) + add * (inverse[n] * residual);
+                          });
+  };
+  const float grow = 1.0f + keep;
+  if (from_zero) {
+    sweep_from([grow](const Quad& at, const Quad&) CFEM_CUTTING_INLINE -> Quad { return grow * at; });
+  } else {
+    sweep_from([grow, keep](const Quad& at, const Quad& earlier)
+                   CFEM_CUTTING_INLINE -> Quad { return grow * at - keep * earlier; });
+  }
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     add_scaled_to_nodes(constraints_[i], -add * forces[i], before);
   correct_for_constraints(kept, before);
@@ -208,29 +216,27 @@ struct LevelSystem::Chebyshev {
   float half_width, sigma, rho, keep = 0.0f, add;
 };
 
-/// Sweeps after the first one.
-void LevelSystem::sweep_on(Chebyshev& chebyshev, const SingleField& b, SingleField& x,
-                           SingleField& before) const {
+/// Sweeps after the first one, which began from zero or not.
+void LevelSystem::sweep_on(Chebyshev& chebyshev, const SingleField& b, SingleField& x, bool from_zero) const {
   for (int k = 1; k < smoothing_.degree; ++k) {
     chebyshev.next();
-    sweep(chebyshev.keep, chebyshev.add, b, x, before);
-    x.swap(before);
+    sweep(chebyshev.keep, chebyshev.add, b, x, before_, from_zero && k == 1);
+    x.swap(before_);
   }
 }
 
 void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const {
   Chebyshev chebyshev(largest_, smoothing_.part);
   scale(b, chebyshev.add, x);
-  before_ = SingleField::Zero(4, b.cols());
-  sweep_on(chebyshev, b, x, before_);
+  sweep_on(chebyshev, b, x, true);
   residual(b, x, r);
 }
 
 void LevelSystem::smooth(const SingleField& b, SingleField& x) const {
   Chebyshev chebyshev(largest_, smoothing_.part);
-  sweep(0.0f, chebyshev.add, b, x, before_);
+  sweep(0.0f, chebyshev.add, b, x, before_, true);
   x.swap(before_);
-  sweep_on(chebyshev, b, x, before_);
+  sweep_on(chebyshev, b, x, false);
 }
 
 /// Rigid motions of free bodies get a weak spring.

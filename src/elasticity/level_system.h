@@ -64,8 +64,9 @@ class LevelSystem {
   template <typename Work>
   void for_nodes(const Work& work) const;
   struct Chebyshev;
-  void sweep(float keep, float add, const SingleField& b, const SingleField& x, SingleField& before) const;
-  void sweep_on(Chebyshev& chebyshev, const SingleField& b, SingleField& x, SingleField& before) const;
+  void sweep(float keep, float add, const SingleField& b, const SingleField& x, SingleField& before,
+             bool from_zero) const;
+  void sweep_on(Chebyshev& chebyshev, const SingleField& b, SingleField& x, bool from_zero) const;
   void scale(const SingleField& r, float factor, SingleField& z) const;
   void correct_for_constraints(const Eigen::VectorXf& kept, SingleField& z) const;
   void add_scaled_to_nodes(const ConstraintRow& row, float force, SingleField& y) const;

@@ -71,9 +71,12 @@ void Simulation::State::let_go() {
 void Simulation::State::rebuild(const Fracture& fracture) {
   for (const Crossing& crossing : fracture.severed) volume.sever(crossing.link, crossing.at);
   const std::vector<int> parent = model.update(volume);
-  const auto inherit = [&](NodeField& field) { field = NodeField(field(Eigen::all, parent)); };
+  const auto inherit = [&](NodeField& field) {
+    if (field.cols() > 0) field = NodeField(field(Eigen::all, parent));
+  };
   inherit(elastic.x);
   inherit(elastic.v);
+  for (NodeField& v : elastic.past_v) inherit(v);
   inherit(reference);
   pieces = find_pieces(volume);
   find_held();

@@ -12,6 +12,8 @@ namespace cfem_cutting {
 struct ElasticState {
   NodeField x;  ///< m
   NodeField v;  ///< m/s
+  /// m/s, of the steps before, the latest first; empty: none. Only first guesses of solves use them.
+  std::array<NodeField, 2> past_v{};
 };
 
 /// Nodes whose positions are prescribed at the end of the step.
