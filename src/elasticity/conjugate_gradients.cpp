@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "first_guess.h"
 #include "node_loops.h"
 
 namespace cfem_cutting {
@@ -21,120 +20,116 @@ double norm(ThreadPool& pool, const NodeField& field) {
   return std::sqrt(sum_over_nodes(pool, field.cols(), [&](int n) { return field.col(n).squaredNorm(); }));
 }
 
-/// ‖b − A dx‖ on the free nodes for the held dx alone.
-double free_load(const LinearSystem& system, const NodeField& b, const NodeField& dx) {
-  ThreadPool& pool = system.multigrid().pool();
-  NodeField held_part = NodeField::Zero(3, dx.cols()), r;
-  bool moves = false;
-  for (int node : system.held()) {
-    held_part.col(node) = dx.col(node);
-    moves = moves || !dx.col(node).isZero(0.0);
-  }
-  if (!moves) {
-    r = b;
-    system.clear_held(r);
-  } else {
-    system.residual(b, held_part, r);
-  }
-  return norm(pool, r);
+void set_zero(ThreadPool& pool, Eigen::Index count, SingleField& field) {
+  field.resize(4, count);
+  for_each_node(pool, count, [&](int n) { field.col(n).setZero(); });
 }
 
-/// What conjugate gradients are preconditioned by, one after the other fails to be positive: with rotations
-/// that differ much from element to element a W-cycle may.
-enum class Preconditioner { kMultigrid, kAdaptedMultigrid, kNodeBlocks };
+}  // namespace
 
-struct Outcome {
-  int iterations = 0;
-  bool broke_down = false;  // the preconditioner is not positive
-};
+/// What residuals are relative to. The load of the held nodes' dx counts, that of the free ones' does not.
+double ConjugateGradients::reference(const LinearSystem& system, const NodeField& b, const NodeField& dx,
+                                     const SolveGoal& goal) {
+  ThreadPool& pool = system.multigrid().pool();
+  last_.setZero(3, dx.cols());
+  bool moves = false;
+  for (int node : system.held()) {
+    last_.col(node) = dx.col(node);
+    moves = moves || !dx.col(node).isZero(0.0);
+  }
+  if (moves) {
+    system.residual(b, last_, residual_);
+  } else {
+    residual_ = b;
+    system.clear_held(residual_);
+  }
+  const double rounding = kRounding * system.multigrid().finest().mean_stiffness() * goal.length *
+                          std::sqrt(static_cast<double>(dx.cols()));
+  return std::max({norm(pool, residual_), goal.least_load, rounding / goal.tolerance});
+}
 
-/// x on towards A⁻¹ b by conjugate gradients until its residual r is `goal` at most.
-Outcome conjugate_gradients(const LinearSystem& system, Preconditioner preconditioner, SingleField& r,
-                            SingleField& x, double goal, int max_iterations) {
+/// Moves x_ towards A⁻¹ b until its residual r_ is `goal` at most.
+ConjugateGradients::Outcome ConjugateGradients::reduce(const LinearSystem& system,
+                                                       Preconditioner preconditioner, double goal,
+                                                       int max_iterations) {
   const Multigrid& multigrid = system.multigrid();
-  const int count = static_cast<int>(r.cols());
+  const int count = static_cast<int>(r_.cols());
   const auto sum = [&](const auto& term) { return sum_over_nodes(multigrid.pool(), count, term); };
-  SingleField z, p = SingleField::Zero(4, count), Ap;
   double rz = 1.0;
-  double size = std::sqrt(sum([&](int n) { return r.col(n).squaredNorm(); }));
+  double size = std::sqrt(sum([&](int n) { return r_.col(n).squaredNorm(); }));
   Outcome outcome;
   int& iteration = outcome.iterations;
+  set_zero(multigrid.pool(), count, p_);
   for (; iteration < max_iterations && size > goal; ++iteration) {
     if (preconditioner == Preconditioner::kNodeBlocks) {
-      multigrid.finest().scale(r, z);
+      multigrid.finest().scale(r_, z_);
     } else {
-      multigrid.precondition(r, z);
+      multigrid.precondition(r_, z_);
     }
-    const double next_rz = sum([&](int n) { return r.col(n).dot(z.col(n)); });
+    const double next_rz = sum([&](int n) { return r_.col(n).dot(z_.col(n)); });
     outcome.broke_down = !(next_rz > 0.0);
     if (outcome.broke_down) break;
     const auto keep = static_cast<float>(iteration > 0 ? next_rz / rz : 0.0);
     rz = next_rz;
-    for_each_node(multigrid.pool(), count, [&](int n) { p.col(n) = z.col(n) + keep * p.col(n); });
-    multigrid.finest().apply(p, Ap);
-    system.clear_held(Ap);
-    const double curvature = sum([&](int n) { return p.col(n).dot(Ap.col(n)); });
+    for_each_node(multigrid.pool(), count, [&](int n) { p_.col(n) = z_.col(n) + keep * p_.col(n); });
+    multigrid.finest().apply(p_, Ap_);
+    system.clear_held(Ap_);
+    const double curvature = sum([&](int n) { return p_.col(n).dot(Ap_.col(n)); });
     if (!(curvature > 0.0)) break;
     const auto length = static_cast<float>(rz / curvature);
     size = std::sqrt(sum([&](int n) {  // takes the step, too
-      x.col(n) += length * p.col(n);
-      r.col(n) -= length * Ap.col(n);
-      return r.col(n).squaredNorm();
+      x_.col(n) += length * p_.col(n);
+      r_.col(n) -= length * Ap_.col(n);
+      return r_.col(n).squaredNorm();
     }));
   }
   return outcome;
 }
 
-Preconditioner next_after(Preconditioner failed, const LinearSystem& system) {
+ConjugateGradients::Preconditioner ConjugateGradients::next_after(Preconditioner failed,
+                                                                  const LinearSystem& system) {
   if (failed != Preconditioner::kMultigrid) return Preconditioner::kNodeBlocks;
   system.adapt_smoothers();
   return Preconditioner::kAdaptedMultigrid;
 }
 
-}  // namespace
-
-SolveReport solve(const LinearSystem& system, const NodeField& b, NodeField& dx, double tolerance,
-                  int max_iterations, double length, double least_load, std::vector<SingleField> directions) {
-  assert(tolerance > 0.0);
-  const double load = std::max(free_load(system, b, dx), least_load);
-  const double rounding = kRounding * system.multigrid().finest().mean_stiffness() * length *
-                          std::sqrt(static_cast<double>(dx.cols()));
-  const double reference = std::max(load, rounding / tolerance);
-
+SolveReport ConjugateGradients::solve(const LinearSystem& system, const NodeField& b, NodeField& dx,
+                                      const SolveGoal& goal, RecentChanges* changes) {
+  assert(goal.tolerance > 0.0);
   ThreadPool& pool = system.multigrid().pool();
+  const Eigen::Index count = dx.cols();
+  const double relative_to = reference(system, b, dx, goal);
   SolveReport report;
   report.converged = false;  // nor if the load is not finite
-  NodeField last = dx, r;
-  SingleField scaled(4, dx.cols()), change;
+  last_ = dx;
   auto preconditioner = Preconditioner::kMultigrid;
   bool broke_down = false;
   for (double before = std::numeric_limits<double>::infinity();;) {
-    system.residual(b, dx, r);
-    const double size = norm(pool, r);
+    system.residual(b, dx, residual_);
+    const double size = norm(pool, residual_);
     if (!(size < before) && !(broke_down && size == before)) {  // rounding, or worse
-      dx = last;
+      dx = last_;
       return report;
     }
-    report.residual = size / reference;
-    report.converged = report.residual <= tolerance;
+    report.residual = size / relative_to;
+    report.converged = report.residual <= goal.tolerance;
     const bool stagnates = !broke_down && !(size < 0.9 * before);
-    if (report.converged || report.iterations >= max_iterations || stagnates) return report;
+    if (report.converged || report.iterations >= goal.max_iterations || stagnates) return report;
+    r_.resize(4, count);
+    for_each_node(pool, count, [&](int n) { r_.col(n) << (residual_.col(n) / size).cast<float>(), 0.0f; });
+    set_zero(pool, count, x_);
+    if (changes && std::isinf(before)) changes->minimise(system, r_, x_);
     before = size;
-    for_each_node(pool, dx.cols(), [&](int n) { scaled.col(n) << (r.col(n) / size).cast<float>(), 0.0f; });
-    change = SingleField::Zero(4, dx.cols());
-    minimise_over(system, std::move(directions), scaled, change);
-    directions.clear();
-    const Outcome outcome = conjugate_gradients(system, preconditioner, scaled, change,
-                                                std::max(0.8 * tolerance * reference / size, kMostReduction),
-                                                max_iterations - report.iterations);
+    const Outcome outcome =
+        reduce(system, preconditioner, std::max(0.8 * goal.tolerance * relative_to / size, kMostReduction),
+               goal.max_iterations - report.iterations);
     report.iterations += outcome.iterations;
     broke_down = outcome.broke_down && preconditioner != Preconditioner::kNodeBlocks;
     if (broke_down) {
       preconditioner = next_after(preconditioner, system);
     } else {
-      last = dx;
-      for_each_node(pool, dx.cols(),
-                    [&](int n) { dx.col(n) += size * change.col(n).head<3>().cast<double>(); });
+      last_ = dx;
+      for_each_node(pool, count, [&](int n) { dx.col(n) += size * x_.col(n).head<3>().cast<double>(); });
     }
   }
 }

@@ -66,20 +66,20 @@ void Corotation::pack_gradients() {
   }
 }
 
-ElasticResponse Corotation::respond(const NodeField& x, ThreadPool& pool) const {
+void Corotation::respond(const NodeField& x, ThreadPool& pool, ElasticResponse& response) const {
   const ElementTiles& tiles = elements_->tiles;
-  ElasticResponse response;
   response.forces.resize(3, x.cols());
   response.rotations.resize(elements_->set.size());
   std::vector<Totals> totals(tiles.size());
   tiles.sum_up<double>(
       pool, [&](int b, double* forces) { totals[b] = respond_batch(b, x, forces, response.rotations); },
       [&](int node, const Eigen::Vector4d& sum) { response.forces.col(node) = sum.head<3>(); });
+  response.energy = 0.0;
+  response.inverted = 0;
   for (const Totals& of_batch : totals) {
     response.energy += of_batch.energy;
     response.inverted += of_batch.inverted;
   }
-  return response;
 }
 
 Corotation::Totals Corotation::respond_batch(int b, const NodeField& x, double* forces,

@@ -16,7 +16,7 @@ class Corotation {
 
   const ElementsPointer& elements() const { return elements_; }
 
-  ElasticResponse respond(const NodeField& x, ThreadPool& pool) const;
+  void respond(const NodeField& x, ThreadPool& pool, ElasticResponse& response) const;
 
  private:
   void pack_gradients();

@@ -141,7 +141,13 @@ void ElasticModel::lump_masses() {
 
 ElasticResponse ElasticModel::respond(const NodeField& x, ThreadPool* pool) const {
   ThreadPool caller_only(1);
-  return matrices_->corotation.respond(x, pool ? *pool : caller_only);
+  ElasticResponse response;
+  respond(x, pool ? *pool : caller_only, response);
+  return response;
+}
+
+void ElasticModel::respond(const NodeField& x, ThreadPool& pool, ElasticResponse& response) const {
+  matrices_->corotation.respond(x, pool, response);
 }
 
 const ElementMatrix& ElasticModel::stiffness(int element) const {

@@ -12,10 +12,9 @@ SingleField to_quads(const NodeField& field) {
   return quads;
 }
 
-SingleField to_quads(const NodeField& field, ThreadPool& pool) {
-  SingleField quads(4, field.cols());
+void to_quads(const NodeField& field, ThreadPool& pool, SingleField& quads) {
+  quads.resize(4, field.cols());
   for_each_node(pool, field.cols(), [&](int n) { quads.col(n) << field.col(n).cast<float>(), 0.0f; });
-  return quads;
 }
 
 NodeField from_quads(const SingleField& field) { return field.topRows<3>().cast<double>(); }
@@ -26,8 +25,8 @@ void ElementProduct::arrange(ElementsPointer elements) {
   rotate(std::vector<Mat3>(elements_->set.size(), Mat3::Identity()));
 }
 
-void ElementProduct::rotate(std::vector<Mat3> rotations) {
-  rotations_ = std::move(rotations);
+void ElementProduct::rotate(std::vector<Mat3>&& rotations) {
+  rotations_.swap(rotations);
   single_.rotations_fit = double_.rotations_fit = false;
 }
 

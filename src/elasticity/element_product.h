@@ -13,7 +13,7 @@ using SingleField = Eigen::Matrix<float, 4, Eigen::Dynamic>;
 inline Quad* quads_of(SingleField& field) { return reinterpret_cast<Quad*>(field.data()); }
 inline const Quad* quads_of(const SingleField& field) { return reinterpret_cast<const Quad*>(field.data()); }
 SingleField to_quads(const NodeField& field);
-SingleField to_quads(const NodeField& field, ThreadPool& pool);
+void to_quads(const NodeField& field, ThreadPool& pool, SingleField& quads);
 NodeField from_quads(const SingleField& field);
 
 /// The product Σ R K Rᵀ p over the elements of a level, matrix-free: tile by tile elements go through the
@@ -25,8 +25,8 @@ class ElementProduct {
   /// Takes over the elements. All rotations are the identity then.
   void arrange(ElementsPointer elements);
 
-  /// @param rotations of the elements
-  void rotate(std::vector<Mat3> rotations);
+  /// @param rotations of the elements; exchanged for the last ones
+  void rotate(std::vector<Mat3>&& rotations);
 
   const ElementSet& elements() const { return elements_->set; }
   const std::vector<Mat3>& rotations() const { return rotations_; }

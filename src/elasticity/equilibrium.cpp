@@ -104,8 +104,8 @@ SolveReport Equilibrium::solve_newton(Multigrid& multigrid, const SolverOptions&
 bool Equilibrium::newton_step(Multigrid& multigrid, const SolverOptions& options, double tolerance,
                               const NodeField& f, ElasticResponse& elastic, NodeField& x,
                               SolveReport& total) const {
-  const LinearSystem system(multigrid, model_, elastic.rotations, {spring_, 1.0, &constraints_}, held_.nodes,
-                            precision_for(tolerance));
+  const LinearSystem system(multigrid, model_, std::vector<Mat3>(elastic.rotations),
+                            {spring_, 1.0, &constraints_}, held_.nodes, precision_for(tolerance));
   NodeField dx = NodeField::Zero(3, x.cols());
   bool held_moves = false;
   for (std::size_t i = 0; i < held_.nodes.size(); ++i) {
@@ -113,7 +113,9 @@ bool Equilibrium::newton_step(Multigrid& multigrid, const SolverOptions& options
     held_moves = held_moves || !dx.col(held_.nodes[i]).isZero(0.0);
   }
   total.iterations +=
-      solve(system, f, dx, tolerance, options.max_iterations, model_.mesh().block_size().mean()).iterations;
+      ConjugateGradients()
+          .solve(system, f, dx, {tolerance, options.max_iterations, model_.mesh().block_size().mean()})
+          .iterations;
   if (!held_moves) return search_line(multigrid.pool(), dx, f, elastic, x);
   x += dx;
   for (std::size_t i = 0; i < held_.nodes.size(); ++i) x.col(held_.nodes[i]) = held_.positions[i];

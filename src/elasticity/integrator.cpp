@@ -1,8 +1,6 @@
 #include "cfem_cutting/elasticity/integrator.h"
 
-#include "conjugate_gradients.h"
 #include "equilibrium.h"
-#include "first_guess.h"
 #include "node_loops.h"
 #include "workspace.h"
 
@@ -15,15 +13,18 @@ Integrator::~Integrator() = default;
 
 SolveReport Integrator::step(const ElasticModel& model, ElasticState& state, double dt, const Vec3& gravity,
                              const HeldNodes& held, const std::vector<PointConstraint>& constraints) {
-  ElasticResponse elastic = model.respond(state.x, &workspace_->pool);
+  ThreadPool& pool = workspace_->pool;
+  ElasticResponse& elastic = workspace_->elastic;
+  model.respond(state.x, pool, elastic);
   const double inertia = 1.0 / (dt * dt) + options_.rayleigh_mass / dt;
   const LinearSystem system(workspace_->multigrid, model, std::move(elastic.rotations),
                             {inertia * model.mass(), 1.0 + options_.rayleigh_stiffness / dt, &constraints},
                             held.nodes, precision_for(options_.tolerance));
 
   NodeField& b = elastic.forces;
-  NodeField dx(3, b.cols());
-  for_each_node(workspace_->pool, b.cols(), [&](int n) {
+  NodeField& dx = workspace_->dx;
+  dx.resize(3, b.cols());
+  for_each_node(pool, b.cols(), [&](int n) {
     b.col(n) += model.mass()[n] * (state.v.col(n) / dt + gravity);
     dx.col(n) = dt * state.v.col(n);
   });
@@ -31,13 +32,17 @@ SolveReport Integrator::step(const ElasticModel& model, ElasticState& state, dou
   for (std::size_t i = 0; i < held.nodes.size(); ++i)
     dx.col(held.nodes[i]) = held.positions[i] - state.x.col(held.nodes[i]);
 
-  SolveReport report = solve(system, b, dx, options_.tolerance, options_.max_iterations,
-                             model.mesh().block_size().mean(), gravity.norm() * model.mass().norm(), recent_changes(state, workspace_->pool));
+  workspace_->changes.take(state, pool);
+  SolveReport report =
+      workspace_->solver.solve(system, b, dx,
+                               {options_.tolerance, options_.max_iterations, model.mesh().block_size().mean(),
+                                gravity.norm() * model.mass().norm()},
+                               &workspace_->changes);
   report.inverted_elements = elastic.inverted;
   state.past_v[1].swap(state.past_v[0]);
   state.past_v[0].swap(state.v);
   state.v.resize(3, dx.cols());
-  for_each_node(workspace_->pool, dx.cols(), [&](int n) {
+  for_each_node(pool, dx.cols(), [&](int n) {
     state.x.col(n) += dx.col(n);
     state.v.col(n) = dx.col(n) / dt;
   });

@@ -47,7 +47,7 @@ void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
 
 void LevelSystem::estimate_largest() { largest_ = std::max(largest_, kSafety * largest_eigenvalue()); }
 
-void LevelSystem::set(std::vector<Mat3> rotations, Eigen::VectorXf node_diagonal, float stiffness_factor,
+void LevelSystem::set(std::vector<Mat3>&& rotations, Eigen::VectorXf node_diagonal, float stiffness_factor,
                       std::vector<ConstraintRow> constraints) {
   product_.rotate(std::move(rotations));
   constraints_ = std::move(constraints);
@@ -169,7 +169,8 @@ void LevelSystem::correct_for_constraints(const Eigen::VectorXf& kept, SingleFie
   for (std::size_t i = 0; i < constraints_.size(); ++i) add_scaled_to_nodes(constraints_[i], -along[i], z);
 }
 
-/// One sweep of Chebyshev's iteration for A x = b: `before` becomes x + keep (x − before) + add M⁻¹ (b − A x).
+/// One sweep of Chebyshev's iteration for A x = b: `before` becomes x + keep (x − before) + add M⁻¹ (b − A
+/// x).
 /// @param from_zero `before` is zero, whatever it holds
 void LevelSystem::sweep(float keep, float add, const SingleField& b, const SingleField& x,
                         SingleField& before, bool from_zero) const {

@@ -27,7 +27,7 @@ class LevelSystem {
   /// Takes over what changes from solve to solve.
   /// @param node_diagonal N/m, per node
   /// @param stiffness_factor s
-  void set(std::vector<Mat3> rotations, Eigen::VectorXf node_diagonal, float stiffness_factor,
+  void set(std::vector<Mat3>&& rotations, Eigen::VectorXf node_diagonal, float stiffness_factor,
            std::vector<ConstraintRow> constraints);
 
   const ElementProduct& product() const { return product_; }

@@ -2,7 +2,7 @@
 
 namespace cfem_cutting {
 
-LinearSystem::LinearSystem(Multigrid& multigrid, const ElasticModel& model, std::vector<Mat3> rotations,
+LinearSystem::LinearSystem(Multigrid& multigrid, const ElasticModel& model, std::vector<Mat3>&& rotations,
                            SystemValues values, const std::vector<int>& held, Precision precision)
     : multigrid_(multigrid), values_(std::move(values)), held_(held), precision_(precision) {
   multigrid_.arrange(model, held);
@@ -19,7 +19,9 @@ void LinearSystem::residual(const NodeField& b, const NodeField& x, NodeField& r
   if (precision_ == Precision::kDouble) {
     product.apply(x, finish);
   } else {
-    product.apply(to_quads(x, multigrid_.pool()), finish);
+    thread_local SingleField quads;  // keeps its memory
+    to_quads(x, multigrid_.pool(), quads);
+    product.apply(quads, finish);
   }
   for (const PointConstraint& c : *values_.constraints) {
     const Vec3 force = c.stiffness * c.direction.dot(c.at.apply(x)) * c.direction;

@@ -17,7 +17,8 @@ inline Precision precision_for(double tolerance) {
 class LinearSystem {
  public:
   /// Sets the hierarchy up for this system.
-  LinearSystem(Multigrid& multigrid, const ElasticModel& model, std::vector<Mat3> rotations,
+  /// @param rotations of the elements; exchanged for those of the last system, whose memory is of use
+  LinearSystem(Multigrid& multigrid, const ElasticModel& model, std::vector<Mat3>&& rotations,
                SystemValues values, const std::vector<int>& held, Precision precision);
 
   /// r = b − A x on the free nodes, zero on the held ones.

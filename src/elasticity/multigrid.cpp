@@ -74,7 +74,7 @@ void Multigrid::add_level(ElementsPointer elements, std::vector<char> held) {
   levels_.emplace_back(pool_).system.arrange(std::move(elements), std::move(held));
 }
 
-void Multigrid::set(std::vector<Mat3> rotations, const SystemValues& values) {
+void Multigrid::set(std::vector<Mat3>&& rotations, const SystemValues& values) {
   const auto factor = static_cast<float>(values.stiffness_factor);
   levels_.front().system.smooth_with(kFinest);
   levels_.front().system.set(std::move(rotations), values.node_diagonal.cast<float>(), factor,

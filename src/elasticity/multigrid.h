@@ -30,7 +30,7 @@ class Multigrid {
   void arrange(const ElasticModel& model, const std::vector<int>& held);
 
   /// Takes over rotations and values.
-  void set(std::vector<Mat3> rotations, const SystemValues& values);
+  void set(std::vector<Mat3>&& rotations, const SystemValues& values);
 
   /// Fits the smoothers to rotations that differ much from element to element. Until the next mesh.
   void adapt_smoothers();

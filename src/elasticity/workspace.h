@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cfem_cutting/elasticity/integrator.h"
-#include "multigrid.h"
+#include "conjugate_gradients.h"
 
 namespace cfem_cutting {
 
@@ -10,6 +10,10 @@ struct Integrator::Workspace {
   explicit Workspace(int threads) : pool(threads), multigrid(pool) {}
   ThreadPool pool;
   Multigrid multigrid;
+  ConjugateGradients solver;
+  RecentChanges changes;
+  ElasticResponse elastic;
+  NodeField dx;
 };
 
 }  // namespace cfem_cutting

@@ -45,6 +45,7 @@ class ElasticModel {
 
   /// @param pool to work on several threads
   ElasticResponse respond(const NodeField& x, ThreadPool* pool = nullptr) const;
+  void respond(const NodeField& x, ThreadPool& pool, ElasticResponse& response) const;
   double energy(const NodeField& x) const { return respond(x).energy; }
   NodeField forces(const NodeField& x) const { return respond(x).forces; }
   std::vector<Mat3> rotations(const NodeField& x) const { return respond(x).rotations; }
