@@ -7,6 +7,8 @@
 namespace cfem_cutting {
 namespace {
 
+constexpr double kFarthestEnd = 4.0;  // of a trace beyond the last contact point, in their spacing
+
 /// The part of a segment from a point in tissue on that is in tissue, tested in steps of 1/16.
 Vec3 go_in_tissue(const VoxelVolume& volume, const Vec3& from, const Vec3& way) {
   constexpr int kSteps = 16;
@@ -37,11 +39,13 @@ bool Simulation::State::holds(const EdgeContactPoint& p) const {
   return pushed_by_front(p) >= -1e-3 * volume.lattice().spacing.minCoeff();
 }
 
-/// The trace goes on from a contact point to where the edge ends or leaves the tissue: there the front, or
-/// the skin or cut's end that it has pushed in as far as at the contact point; and straight on as long as
-/// there is tissue, which in motion may reach farther along the edge than at rest.
+/// The trace goes on from a contact point to where the edge ends or leaves the tissue, unless that is far away,
+/// beyond an earlier cut: there the front, or the skin or cut's end that it has pushed in as far as at the contact
+/// point; and straight on as long as there is tissue, which in motion may reach farther along the edge than at
+/// rest.
 void Simulation::State::extend(const EdgeContactPoint& last, int step, Trace& trace) const {
-  const std::optional<FrontEnd> end = tracker.end_beyond(last.along, step, volume);
+  std::optional<FrontEnd> end = tracker.end_beyond(last.along, step, volume);
+  if (end && (end->X - end->X_at_start).norm() > kFarthestEnd * contact_spacing()) end.reset();
   Vec3 X = last.X;
   if (end) {
     const Vec3 beyond = end->X - end->X_at_start, ahead = last.X - end->X_at_start;
