@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -23,22 +24,60 @@ void pause() {
 #endif
 }
 
+/// Parts a thread has to itself, if there are enough: what it has not begun, others take over when they are
+/// done.
+constexpr int kPartsPerThread = 4;
+
+/// Parts first, first + 1, ... of one thread. Taken by all, but first by that.
+struct alignas(64) Share {
+  std::atomic<std::uint64_t> open{0};  // number of the round << 32 | parts that nobody took yet
+  int end = 0;
+
+  void put(std::uint64_t round, int first, int last) {
+    end = last;
+    open = round << 32 | static_cast<std::uint32_t>(last - first);
+  }
+  bool empty() const { return static_cast<std::uint32_t>(open) == 0; }
+
+  /// @return a part, or -1 if there is none left
+  int take() {
+    std::uint64_t now = open;
+    do {
+      if (static_cast<std::uint32_t>(now) == 0) return -1;
+    } while (!open.compare_exchange_weak(now, now - 1));
+    return end - static_cast<int>(static_cast<std::uint32_t>(now));
+  }
+};
+
 }  // namespace
 
 struct ThreadPool::State {
+  explicit State(int threads) : shares(threads) {}
+
   std::mutex mutex;
   std::condition_variable start, done;
   std::vector<std::thread> workers;
+  std::vector<Share> shares;  // the caller's first
   const std::function<void(int, int)>* work = nullptr;
   int count = 0, parts = 0;
-  std::atomic<int> pending{0};  // workers that have not finished this round
-  std::atomic<long> round{0};
-  bool stop = false;
+  std::uint64_t round = 0;
+  std::atomic<int> unfinished{0};  // parts of this round
+  std::atomic<bool> stop{false};
 
-  void run_part(int part) const {
-    if (part >= parts) return;
+  int threads() const { return static_cast<int>(shares.size()); }
+
+  /// As long as there is a part of this round that nobody took, work, count and parts stay as they are.
+  bool run_part(int thread) {
+    int part = -1;
+    for (int i = 0; i < threads() && part < 0; ++i) part = shares[(thread + i) % threads()].take();
+    if (part < 0) return false;
     const auto bound = [&](int p) { return static_cast<int>(static_cast<long>(count) * p / parts); };
     (*work)(bound(part), bound(part + 1));
+    if (--unfinished == 0) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      done.notify_one();
+    }
+    return true;
   }
 
   /// Waits until the condition holds, awake at first.
@@ -53,42 +92,46 @@ struct ThreadPool::State {
   }
 
   void begin_round() {
+    unfinished = parts;
+    ++round;
     {
       const std::lock_guard<std::mutex> lock(mutex);
-      pending = static_cast<int>(workers.size());
-      ++round;
+      for (int t = 0; t < threads(); ++t)
+        shares[t].put(round, parts * t / threads(), parts * (t + 1) / threads());
     }
     start.notify_all();
   }
 
-  void loop(int part) {
-    for (long seen = 0;;) {
-      wait(start, [&] { return round != seen; });
-      seen = round;
+  void loop(int thread) {
+    const auto has_work = [&](const Share& share) { return !share.empty(); };
+    for (;;) {
+      wait(start, [&] { return stop || std::any_of(shares.begin(), shares.end(), has_work); });
       if (stop) return;
-      run_part(part);
-      if (--pending > 0) continue;
-      const std::lock_guard<std::mutex> lock(mutex);
-      done.notify_one();
+      while (run_part(thread)) continue;
     }
   }
 };
 
-ThreadPool::ThreadPool(int threads) : state_(std::make_unique<State>()) {
-  if (threads <= 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  for (int part = 1; part < threads; ++part)
-    state_->workers.emplace_back([state = state_.get(), part] { state->loop(part); });
+ThreadPool::ThreadPool(int threads)
+    : state_(std::make_unique<State>(
+          threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())))) {
+  for (int thread = 1; thread < state_->threads(); ++thread)
+    state_->workers.emplace_back([state = state_.get(), thread] { state->loop(thread); });
 }
 
 ThreadPool::~ThreadPool() {
-  state_->stop = true;
-  state_->begin_round();
+  {
+    const std::lock_guard<std::mutex> lock(state_->mutex);
+    state_->stop = true;
+  }
+  state_->start.notify_all();
   for (std::thread& worker : state_->workers) worker.join();
 }
 
 void ThreadPool::for_range(int count, int grain, const std::function<void(int, int)>& work) {
-  const int parts = std::min(static_cast<int>(state_->workers.size()) + 1, count / std::max(1, grain));
-  if (parts <= 1) {
+  const int threads = state_->threads();
+  const int parts = std::min(threads * kPartsPerThread, count / std::max(1, grain));
+  if (threads == 1 || parts <= 1) {
     if (count > 0) work(0, count);
     return;
   }
@@ -96,8 +139,8 @@ void ThreadPool::for_range(int count, int grain, const std::function<void(int, i
   state_->count = count;
   state_->parts = parts;
   state_->begin_round();
-  state_->run_part(0);
-  state_->wait(state_->done, [&] { return state_->pending == 0; });
+  while (state_->run_part(0)) continue;
+  state_->wait(state_->done, [&] { return state_->unfinished == 0; });
 }
 
 }  // namespace cfem_cutting

@@ -39,10 +39,10 @@ bool Simulation::State::holds(const EdgeContactPoint& p) const {
   return pushed_by_front(p) >= -1e-3 * volume.lattice().spacing.minCoeff();
 }
 
-/// The trace goes on from a contact point to where the edge ends or leaves the tissue, unless that is far away,
-/// beyond an earlier cut: there the front, or the skin or cut's end that it has pushed in as far as at the contact
-/// point; and straight on as long as there is tissue, which in motion may reach farther along the edge than at
-/// rest.
+/// The trace goes on from a contact point to where the edge ends or leaves the tissue, unless that is far
+/// away, beyond an earlier cut: there the front, or the skin or cut's end that it has pushed in as far as at
+/// the contact point; and straight on as long as there is tissue, which in motion may reach farther along the
+/// edge than at rest.
 void Simulation::State::extend(const EdgeContactPoint& last, int step, Trace& trace) const {
   std::optional<FrontEnd> end = tracker.end_beyond(last.along, step, volume);
   if (end && (end->X - end->X_at_start).norm() > kFarthestEnd * contact_spacing()) end.reset();
