@@ -7,7 +7,7 @@
 namespace cfem_cutting {
 namespace {
 
-constexpr double kFarthestEnd = 4.0;  // of a trace beyond the last contact point, in their spacing
+constexpr double kDentReach = 4.0;  // along the edge, of contact points' spacing
 
 /// The part of a segment from a point in tissue on that is in tissue, tested in steps of 1/16.
 Vec3 go_in_tissue(const VoxelVolume& volume, const Vec3& from, const Vec3& way) {
@@ -39,22 +39,37 @@ bool Simulation::State::holds(const EdgeContactPoint& p) const {
   return pushed_by_front(p) >= -1e-3 * volume.lattice().spacing.minCoeff();
 }
 
-/// The trace goes on from a contact point to where the edge ends or leaves the tissue, unless that is far
-/// away, beyond an earlier cut: there the front, or the skin or cut's end that it has pushed in as far as at
-/// the contact point; and straight on as long as there is tissue, which in motion may reach farther along the
-/// edge than at rest.
+/// On a long way to its end, beyond an earlier cut, the trace follows the edge: a dent that moved the tissue
+/// at the contact point moves it less and less far from there.
+Polyline Simulation::State::follow_edge(const FrontEnd& end, const Vec3& dent) const {
+  const double reach = kDentReach * contact_spacing();
+  Polyline points;
+  if ((end.X - end.X_at_start).norm() <= reach) return points;
+  for (const Vec3& X : end.way) {
+    const double part = std::max(0.0, 1.0 - (X - end.X_at_start).norm() / reach);
+    if (tissue_voxel_at(volume, X + part * dent) >= 0) points.push_back(X + part * dent);
+  }
+  return points;
+}
+
+/// The trace goes on from a contact point to where the edge ends or leaves the tissue: there the front, or
+/// the skin or cut's end that it has pushed in as far as at the contact point; and straight on as long as
+/// there is tissue, which in motion may reach farther along the edge than at rest.
 void Simulation::State::extend(const EdgeContactPoint& last, int step, Trace& trace) const {
-  std::optional<FrontEnd> end = tracker.end_beyond(last.along, step, volume);
-  if (end && (end->X - end->X_at_start).norm() > kFarthestEnd * contact_spacing()) end.reset();
+  const std::optional<FrontEnd> end = tracker.end_beyond(last.along, step, volume);
+  Polyline points;
   Vec3 X = last.X;
   if (end) {
-    const Vec3 beyond = end->X - end->X_at_start, ahead = last.X - end->X_at_start;
-    X = nearer_to(last.X + beyond, go_in_tissue(volume, last.X, beyond), go_in_tissue(volume, end->X, ahead));
+    const Vec3 beyond = end->X - end->X_at_start, dent = last.X - end->X_at_start;
+    points = follow_edge(*end, dent);
+    X = nearer_to(last.X + beyond, go_in_tissue(volume, last.X, beyond), go_in_tissue(volume, end->X, dent));
   }
   (step > 0 ? trace.tip : trace.heel) = end && end->edge_ends;
   if ((!end || !end->edge_ends) && tissue_voxel_at(volume, X) >= 0)
     X = go_in_tissue(volume, X, 2.0 * contact_spacing() * tracker.material_tangent(last.along, step));
-  if ((X - last.X).norm() > 1e-6 * volume.lattice().spacing.minCoeff()) trace.points.push_back(X);
+  if ((X - last.X).norm() > 1e-6 * volume.lattice().spacing.minCoeff()) points.push_back(X);
+  if (step < 0) std::reverse(points.begin(), points.end());
+  trace.points.insert(trace.points.end(), points.begin(), points.end());
 }
 
 FrontTrace Simulation::State::front_trace() {

@@ -89,7 +89,10 @@ std::optional<FrontEnd> FrontTracker::end_beyond(double along, int step, const V
   if (tissue_voxel_at(volume, end.X_at_start) < 0) return std::nullopt;
   end.X = end.X_at_start;
   int i = step > 0 ? next : before;
-  for (; inside(i); i += step) end.X = material_[i]->X;
+  for (; inside(i); i += step) {
+    end.X = material_[i]->X;
+    end.way.push_back(end.X);
+  }
   end.edge_ends = i < 0 || i == count;
   const bool leaves = i >= 0 && i < count && material_[i] && tissue_voxel_at(volume, material_[i]->X) < 0;
   if (leaves) end.X = find_entry(volume, material_[i]->X, end.X).X;

@@ -53,6 +53,7 @@ struct Simulation::State {
   double contact_offset(const OffsetField& offsets) const;
   FrontTrace front_trace();
   bool holds(const EdgeContactPoint& p) const;
+  Polyline follow_edge(const FrontEnd& end, const Vec3& dent) const;
   void extend(const EdgeContactPoint& last, int step, Trace& trace) const;
   std::vector<EdgePart> held_parts() const;
   double dent_radius() const { return 0.75 * contact_spacing(); }  ///< m, half the widest gap

@@ -29,6 +29,7 @@ struct FrontEnd {
   Vec3 X;           ///< m, material, the last point in tissue
   bool edge_ends;   ///< in tissue, at X
   Vec3 X_at_start;  ///< m, of the front at the place where it starts
+  Polyline way;     ///< m, material, points of the front from there on
 };
 
 /// Follows the blade's front in world and material space. Front points, once pulled back, are kept as
