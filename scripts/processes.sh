@@ -13,8 +13,9 @@ os.execvp(sys.argv[1], sys.argv[1:])' "$@" &
   started+=($!)
 }
 
-# Ends what was started, the newest first, and waits until it is gone.
+# Ends what was started, the newest first, and waits until it is gone, whatever signals come meanwhile.
 stop_started() {
+  trap '' INT TERM HUP
   local index
   for ((index = ${#started[@]} - 1; index >= 0; --index)); do
     kill -INT "${started[index]}" 2>/dev/null || continue

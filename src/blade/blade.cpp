@@ -5,6 +5,9 @@
 #include "cfem_cutting/geometry/errors.h"
 
 namespace cfem_cutting {
+namespace {
+constexpr double kLeastSine = 1e-3;  // between edge and back
+}
 
 Blade make_blade(const Polyline& edge, const Vec3& back, double friction) {
   if (edge.size() < 2)
@@ -15,6 +18,10 @@ Blade make_blade(const Polyline& edge, const Vec3& back, double friction) {
                       " coincide: neighbours must differ");
   }
   if (!(back.norm() > 0.0)) throw ConfigError("blade.back: [0, 0, 0]: must not be zero");
+  for (std::size_t i = 1; i < edge.size(); ++i)
+    if ((edge[i] - edge[i - 1]).normalized().cross(back.normalized()).norm() < kLeastSine)
+      throw ConfigError("blade.back: is along the edge from point " + std::to_string(i) + " to " +
+                        std::to_string(i + 1) + ": must point from the edge to the spine");
   return {edge, back.normalized(), friction};
 }
 

@@ -62,17 +62,19 @@ Blade idle_blade() { return make_blade({Vec3::Zero(), 0.01 * Vec3::UnitX()}, Vec
 /// The steps of a run, one after the other.
 class StepSource {
  public:
-  StepSource(const Recording& recording, double time_step, double duration)
+  StepSource(const Recording& recording, const Simulation& simulation, double duration)
       : recording_(recording),
-        timeline_(time_step),
-        time_step_(time_step),
-        idle_steps_(std::llround(duration / time_step)) {}
+        time_step_(simulation.config().dynamics.time_step),
+        timeline_(time_step_, [&](const Pose& a, const Pose& b) { return simulation.is_jump(a, b); }),
+        idle_steps_(std::llround(duration / time_step_)) {}
 
   std::optional<StepInput> next() {
     std::optional<StepInput> input = recording_.tool.empty() ? next_idle() : next_with_tool();
     if (input) add_grips(*input);
     return input;
   }
+
+  std::uint64_t jumps() const { return timeline_.jumps(); }
 
   double length() const {
     if (recording_.tool.empty()) return static_cast<double>(idle_steps_) * time_step_;
@@ -106,8 +108,8 @@ class StepSource {
   }
 
   const Recording& recording_;
-  Timeline timeline_;
   double time_step_;
+  Timeline timeline_;
   std::int64_t idle_steps_;
   std::int64_t step_ = 0;
   std::size_t pushed_ = 0;
@@ -181,11 +183,18 @@ void run_replay(const ReplayOptions& options, const BagReader& read_bag) {
   const bool has_tool = options.duration == 0.0;
   const bool has_blade = !config.blade.edge.empty() || !config.blade.edge_links.empty();
   const Blade blade = has_tool || has_blade ? load_blade(config.blade, resolve) : idle_blade();
-  const Recording recording = read_recording(options, read_bag, config.tissue);
+  Recording recording = read_recording(options, read_bag, config.tissue);
   OutputFolder folder(options.out);
   Simulation simulation(config, *load_shape(config.tissue, resolve), blade);
-  StepSource steps(recording, config.dynamics.time_step, options.duration);
+  for (const auto& warnings : {recording.warnings, simulation.warnings()})
+    for (const std::string& warning : warnings) std::cerr << "warning: " << warning << std::endl;
+  StepSource steps(recording, simulation, options.duration);
   const RunFigures figures = run_steps(simulation, steps, folder, options.surface_every);
+  if (steps.jumps() > 0) {
+    recording.warnings.push_back(std::to_string(steps.jumps()) +
+                                 " pose(s) are farther than blade.max_travel from the one before: nothing is cut there");
+    std::cerr << "warning: " << recording.warnings.back() << std::endl;
+  }
   write_results(folder, simulation, figures, recording.warnings);
   folder.publish();
   std::cout << figures.statistics.steps << " steps in " << figures.wall_time << " s, "

@@ -9,10 +9,13 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <set>
 
 #include "cfem_cutting/geometry/errors.h"
+#include "cfem_cutting/ros/conversions.h"
+#include "cfem_cutting/ros/pose_queue.h"
 
 namespace cfem_cutting {
 namespace {
@@ -25,40 +28,33 @@ std::string without_slash(const std::string& name) {
 bool is_static_tf(const std::string& topic) { return without_slash(topic) == "tf_static"; }
 bool is_tf(const std::string& topic) { return without_slash(topic) == "tf" || is_static_tf(topic); }
 
-/// A tool's pose in the frame that it was sent in.
-struct SentPose {
-  ros::Time stamp;
-  std::string frame;
+/// By the node's rules.
+/// @return false if the message is of another type
+bool push(const rosbag::MessageInstance& message, PoseQueue& queue) {
+  std_msgs::Header header;
   Pose pose;
-};
-
-Pose to_pose(const geometry_msgs::Pose& message, const BagRequest& request) {
-  const Eigen::Quaterniond rotation(message.orientation.w, message.orientation.x, message.orientation.y,
-                                    message.orientation.z);
-  const Vec3 position(message.position.x, message.position.y, message.position.z);
-  if (!position.allFinite() || !(rotation.norm() > 1e-6))
-    throw FileError(request.path + ": topic '" + request.topic +
-                    "': a pose is not finite or has a zero quaternion");
-  return Eigen::Translation3d(position) * rotation.normalized();
-}
-
-std::optional<SentPose> to_sent_pose(const rosbag::MessageInstance& message, const BagRequest& request) {
-  if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>())
-    return SentPose{pose->header.stamp, without_slash(pose->header.frame_id), to_pose(pose->pose, request)};
-  if (const auto transform = message.instantiate<geometry_msgs::TransformStamped>()) {
-    geometry_msgs::Pose pose;
-    pose.position.x = transform->transform.translation.x;
-    pose.position.y = transform->transform.translation.y;
-    pose.position.z = transform->transform.translation.z;
-    pose.orientation = transform->transform.rotation;
-    return SentPose{transform->header.stamp, without_slash(transform->header.frame_id),
-                    to_pose(pose, request)};
+  bool valid = false;
+  if (const auto stamped = message.instantiate<geometry_msgs::PoseStamped>()) {
+    header = stamped->header;
+    valid = to_pose(stamped->pose, pose);
+  } else if (const auto transform = message.instantiate<geometry_msgs::TransformStamped>()) {
+    header = transform->header;
+    valid = to_pose(transform->transform, pose);
+  } else {
+    return false;
   }
-  return std::nullopt;
+  if (valid) {
+    queue.push({header.stamp, without_slash(header.frame_id), pose, {}});
+  } else {
+    queue.count_invalid();
+  }
+  return true;
 }
 
 /// All transforms of the bag.
-void read_transforms(const rosbag::Bag& bag, tf2::BufferCore& buffer) {
+/// @return the stamps of those that move
+std::set<ros::Time> read_transforms(const rosbag::Bag& bag, tf2::BufferCore& buffer) {
+  std::set<ros::Time> stamps;
   rosbag::View view(bag, [](const rosbag::ConnectionInfo* c) { return is_tf(c->topic); });
   for (const rosbag::MessageInstance& message : view) {
     const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
@@ -67,8 +63,10 @@ void read_transforms(const rosbag::Bag& bag, tf2::BufferCore& buffer) {
       transform.header.frame_id = without_slash(transform.header.frame_id);
       transform.child_frame_id = without_slash(transform.child_frame_id);
       buffer.setTransform(transform, "bag", is_static_tf(message.getTopic()));
+      if (!is_static_tf(message.getTopic())) stamps.insert(transform.header.stamp);
     }
   }
+  return stamps;
 }
 
 [[noreturn]] void refuse_topic(const rosbag::Bag& bag, const BagRequest& request) {
@@ -81,19 +79,14 @@ void read_transforms(const rosbag::Bag& bag, tf2::BufferCore& buffer) {
                   (list.empty() ? "none" : list));
 }
 
-std::vector<SentPose> read_sent_poses(const rosbag::Bag& bag, const BagRequest& request) {
+void read_poses(const rosbag::Bag& bag, const BagRequest& request, PoseQueue& queue) {
   const std::string topic = without_slash(request.topic);
   rosbag::View view(bag, [&](const rosbag::ConnectionInfo* c) { return without_slash(c->topic) == topic; });
   if (view.size() == 0) refuse_topic(bag, request);
-  std::vector<SentPose> poses;
-  for (const rosbag::MessageInstance& message : view) {
-    const std::optional<SentPose> pose = to_sent_pose(message, request);
-    if (!pose)
+  for (const rosbag::MessageInstance& message : view)
+    if (!push(message, queue))
       throw FileError(request.path + ": topic '" + request.topic + "' is " + message.getDataType() +
                       ": must be geometry_msgs/PoseStamped or geometry_msgs/TransformStamped");
-    if (!pose->stamp.isZero()) poses.push_back(*pose);  // zero: invalid (CRTK)
-  }
-  return poses;
 }
 
 std::optional<Pose> look_up(const tf2::BufferCore& buffer, const std::string& target,
@@ -105,29 +98,50 @@ std::optional<Pose> look_up(const tf2::BufferCore& buffer, const std::string& ta
   return std::nullopt;
 }
 
-Recording bring_to_tissue(const std::vector<SentPose>& poses, const tf2::BufferCore& buffer,
-                          const BagRequest& request) {
+/// What the node counts in its diagnostics.
+std::string list_unused(const PoseCounts& counts, const std::string& tissue, const std::string& why_not) {
+  std::string list;
+  const auto add = [&](std::uint64_t count, const std::string& what) {
+    if (count > 0) list += (list.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  };
+  add(counts.no_stamp, "without a stamp");
+  add(counts.invalid, "not finite or without a unit quaternion");
+  add(counts.out_of_order, "out of order");
+  add(counts.no_transform, "that cannot be brought to frame '" + tissue + "' (" + why_not + ")");
+  return list;
+}
+
+/// Places the poses, and takes them in their order.
+Recording bring_to_tissue(PoseQueue& queue, const tf2::BufferCore& buffer, const BagRequest& request) {
   const std::string tissue = without_slash(request.tissue_frame);
-  Recording recording;
   std::string why_not;
-  for (const SentPose& sent : poses) {
-    const double time = sent.stamp.toSec();
-    if (const auto X_TS = look_up(buffer, tissue, sent.frame, sent.stamp, why_not))
-      recording.tool.push_back({time, *X_TS * sent.pose});
-    std::string ignored;
-    for (const std::string& frame : request.frames) {
-      PoseTrack& track = recording.frames[frame];
-      const auto X_TF = look_up(buffer, tissue, without_slash(frame), sent.stamp, ignored);
-      if (X_TF && (track.empty() || time > track.back().time)) track.push_back({time, *X_TF});
-    }
-  }
-  const std::size_t lost = poses.size() - recording.tool.size();
-  const std::string message = "topic '" + request.topic + "': " + std::to_string(lost) + " of " +
-                              std::to_string(poses.size()) + " poses cannot be brought to frame '" + tissue +
-                              "': " + why_not;
+  queue.place([&](ReceivedPose& pose) {
+    const auto X_TF = look_up(buffer, tissue, pose.frame, pose.stamp, why_not);
+    if (!X_TF) return PoseQueue::Placing::kGiveUp;
+    pose.pose = *X_TF * pose.pose;
+    return PoseQueue::Placing::kPlaced;
+  });
+  Recording recording;
+  while (const std::optional<ReceivedPose> pose = queue.take())
+    recording.tool.push_back({pose->stamp.toSec(), pose->pose});
+  const PoseCounts counts = queue.counts();
+  const std::string message = "topic '" + request.topic + "': of " + std::to_string(counts.received) +
+                              " poses are not used: " + list_unused(counts, tissue, why_not);
   if (recording.tool.empty()) throw FileError(request.path + ": " + message);
-  if (lost > 0) recording.warnings.push_back(message);
+  if (counts.used < counts.received) recording.warnings.push_back(message);
   return recording;
+}
+
+/// A followed frame, at the times of all transforms in the bag.
+PoseTrack follow(const std::string& frame, const std::set<ros::Time>& stamps, const tf2::BufferCore& buffer,
+                 const BagRequest& request) {
+  PoseTrack track;
+  std::string ignored;
+  for (const ros::Time& stamp : stamps)
+    if (const auto X_TF =
+            look_up(buffer, without_slash(request.tissue_frame), without_slash(frame), stamp, ignored))
+      track.push_back({stamp.toSec(), *X_TF});
+  return track;
 }
 
 /// Keeps the transforms of the whole bag, whatever its length.
@@ -138,12 +152,14 @@ ros::Duration cache_time(const rosbag::Bag& bag) {
 }
 
 Recording read_open_bag(const rosbag::Bag& bag, const BagRequest& request) {
-  const std::vector<SentPose> poses = read_sent_poses(bag, request);
-  if (poses.empty())
-    throw FileError(request.path + ": topic '" + request.topic + "': all stamps are zero (invalid)");
+  PoseQueue queue(std::numeric_limits<std::size_t>::max());
+  read_poses(bag, request, queue);
   tf2::BufferCore buffer(cache_time(bag));
-  read_transforms(bag, buffer);
-  return bring_to_tissue(poses, buffer, request);
+  const std::set<ros::Time> stamps = read_transforms(bag, buffer);
+  Recording recording = bring_to_tissue(queue, buffer, request);
+  for (const std::string& frame : request.frames)
+    recording.frames[frame] = follow(frame, stamps, buffer, request);
+  return recording;
 }
 
 }  // namespace

@@ -51,12 +51,14 @@ void Diagnostics::report_simulation(DiagnosticStatusWrapper& status) const {
     status.summary(Level::OK, name_of(loop.state));
   }
   if (loop.lag > max_lag_) status.mergeSummary(Level::WARN, "behind the poses");
+  if (loop.skipped > 0.0) status.mergeSummary(Level::WARN, "left time out to keep up");
   if (loop.inverted_elements > 0) status.mergeSummary(Level::WARN, "inverted elements");
   status.add("state", name_of(loop.state));
   status.add("steps", loop.steps);
   status.add("fracture_events", loop.events);
   status.add("lag_s", loop.lag);
   status.add("skipped_s", loop.skipped);
+  status.add("jumps", loop.jumps);
   status.add("inverted_elements", loop.inverted_elements);
   status.add("steps_not_converged", loop.not_converged);
 }

@@ -18,7 +18,6 @@ void PoseQueue::push(ReceivedPose pose) {
     ++counts_.out_of_order;
     return;
   }
-  last_arrival_ = pose.arrival;
   if (pose.stamp > newest_) {
     counts_.out_of_order += behind_.size();
     behind_.clear();
@@ -66,6 +65,7 @@ void PoseQueue::place(const std::function<Placing(ReceivedPose&)>& attempt) {
       if (placed_.size() >= capacity_) thin(placed_);
       placed_.push_back(std::move(pose));
       waiting_.pop_front();
+      last_placing_ = std::chrono::steady_clock::now();
       continue;
     }
     ++counts_.no_transform;
@@ -96,9 +96,9 @@ void PoseQueue::clear() {
   placed_.clear();
 }
 
-bool PoseQueue::empty() const {
+bool PoseQueue::has_placed() const {
   const std::lock_guard lock(mutex_);
-  return waiting_.empty() && placed_.empty();
+  return !placed_.empty();
 }
 
 double PoseQueue::newest_stamp() const {
@@ -113,8 +113,8 @@ PoseCounts PoseQueue::counts() const {
 
 double PoseQueue::silence() const {
   const std::lock_guard lock(mutex_);
-  if (!last_arrival_) return std::numeric_limits<double>::infinity();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - *last_arrival_).count();
+  if (!last_placing_) return std::numeric_limits<double>::infinity();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - *last_placing_).count();
 }
 
 }  // namespace cfem_cutting

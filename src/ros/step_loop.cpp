@@ -11,8 +11,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kZeroEvery = 0.1;  // s, of zero wrenches while the input is stale
 constexpr auto kIdle = std::chrono::milliseconds(1);  // between two looks at an empty queue
-constexpr double kLongestGap = 60.0;  // s, between two poses; a longer one is a jump, not steps to be taken
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -35,7 +35,8 @@ StepLoop::StepLoop(const Config& config, std::unique_ptr<Simulation> simulation,
                    StepPublisher& steps, ScenePublisher& scenes)
     : config_(config),
       simulation_(std::move(simulation)),
-      timeline_(config.simulation.dynamics.time_step),
+      timeline_(config.simulation.dynamics.time_step,
+                [this](const Pose& a, const Pose& b) { return simulation_->is_jump(a, b); }),
       tracker_(tracker),
       step_publisher_(steps),
       scene_publisher_(scenes) {
@@ -113,11 +114,9 @@ void StepLoop::feed(const ReceivedPose& pose) {
     if (config_.node.reset_on_loop) forget();
     timeline_.restart();
   }
-  const double stamp = pose.stamp.toSec();
-  if (newest_ > 0.0 && stamp - newest_ > kLongestGap) timeline_.restart();
-  newest_ = stamp;
+  newest_ = pose.stamp.toSec();
   held_steps_wanted_ = true;
-  timeline_.push(stamp, pose.pose);
+  timeline_.push(newest_, pose.pose);
 }
 
 // Real time: when poses stop the blade is held where it is, step by step, until the input counts as stale.
@@ -163,17 +162,19 @@ void StepLoop::record(const StepReport& report) {
   status_.inverted_elements = report.inverted_elements;
   if (!report.converged) ++status_.not_converged;
   status_.stale = false;
+  status_.jumps = timeline_.jumps();
   for (const FractureEvent& event : report.events) {
     events_.push_back(to_message(event, config_.simulation.tissue.frame));
   }
 }
 
 void StepLoop::watch_input() {
-  if (tracker_.silence() <= config_.node.input_timeout || !tracker_.empty() || pending_) return;
+  if (tracker_.silence() <= config_.node.input_timeout || tracker_.has_poses() || pending_) return;
   {
     const std::lock_guard lock(mutex_);
-    if (std::exchange(status_.stale, true)) return;
+    if (std::exchange(status_.stale, true) && seconds_since(last_zero_) < kZeroEvery) return;
   }
+  last_zero_ = Clock::now();
   step_publisher_.publish_zero_wrench(time_);
 }
 

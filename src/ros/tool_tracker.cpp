@@ -1,5 +1,7 @@
 #include "cfem_cutting/ros/tool_tracker.h"
 
+#include <ros/console.h>
+
 #include <algorithm>
 
 #include "cfem_cutting/ros/conversions.h"
@@ -11,6 +13,7 @@ constexpr std::uint32_t kPoseQueue = 10000;  // messages that wait for their cal
 constexpr double kLosslessPatience = 5.0;    // s, for tf
 constexpr double kLosslessMemory = 600.0;    // s, of tf
 constexpr double kRealtimeMemory = 10.0;     // s
+constexpr double kWarnEvery = 5.0;           // s
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -51,12 +54,17 @@ ToolTracker::ToolTracker(ros::NodeHandle& node, const Config& config)
   }
 }
 
+void ToolTracker::refuse_pose() {
+  queue_.count_invalid();
+  ROS_WARN_THROTTLE(kWarnEvery, "tool/measured_cp: poses left out: not finite, or no unit quaternion");
+}
+
 void ToolTracker::receive_pose(const geometry_msgs::PoseStamped& message) {
   Pose pose;
   if (to_pose(message.pose, pose)) {
     offer(message.header, pose);
   } else {
-    queue_.count_invalid();
+    refuse_pose();
   }
 }
 
@@ -65,7 +73,7 @@ void ToolTracker::receive_transform(const geometry_msgs::TransformStamped& messa
   if (to_pose(message.transform, pose)) {
     offer(message.header, pose);
   } else {
-    queue_.count_invalid();
+    refuse_pose();
   }
 }
 
@@ -91,6 +99,7 @@ void ToolTracker::receive_tf(const tf2_msgs::TFMessage& message) {
 }
 
 void ToolTracker::offer(const std_msgs::Header& header, const Pose& pose) {
+  if (header.stamp.isZero()) ROS_WARN_THROTTLE(kWarnEvery, "tool/measured_cp: poses left out: no stamp");
   queue_.push({header.stamp, frame_name(header.frame_id), pose, std::chrono::steady_clock::now()});
   place_all();
 }
@@ -102,7 +111,10 @@ PoseQueue::Placing ToolTracker::place(ReceivedPose& pose) const {
     pose.frame = tissue_frame_;
     return PoseQueue::Placing::kPlaced;
   }
-  return seconds_since(pose.arrival) > patience_ ? PoseQueue::Placing::kGiveUp : PoseQueue::Placing::kWait;
+  if (seconds_since(pose.arrival) <= patience_) return PoseQueue::Placing::kWait;
+  ROS_WARN_THROTTLE(kWarnEvery, "Poses left out: tf has no transform from '%s' to '%s' at %.3f s",
+                    pose.frame.c_str(), tissue_frame_.c_str(), pose.stamp.toSec());
+  return PoseQueue::Placing::kGiveUp;
 }
 
 void ToolTracker::place_all() {

@@ -39,6 +39,11 @@ Vec3 Grips::position(int grip, const Vec3& X, double time) const {
   return carrier->second.now * (carrier->second.first.inverse() * displaced);
 }
 
-void Grips::reset() { carriers_.clear(); }
+std::vector<int> Grips::idle() const {
+  std::vector<int> idle;
+  for (int grip = 0; grip < static_cast<int>(grips_.size()); ++grip)
+    if (std::find(grip_of_held_.begin(), grip_of_held_.end(), grip) == grip_of_held_.end()) idle.push_back(grip);
+  return idle;
+}
 
 }  // namespace cfem_cutting

@@ -39,6 +39,8 @@ void Simulation::reset() {
   s_ = std::make_unique<State>(s_->config, VoxelVolume(s_->rest_volume), s_->blade);
 }
 
+bool Simulation::is_jump(const Pose& from, const Pose& to) const { return s_->is_jump(from, to); }
+
 const SimulationConfig& Simulation::config() const { return s_->config; }
 const VoxelVolume& Simulation::volume() const { return s_->volume; }
 const ElasticModel& Simulation::model() const { return s_->model; }

@@ -32,6 +32,7 @@ std::vector<std::string> find_warnings(const VoxelVolume& volume, const Grips& g
   if (volume.dropped_volume() > 0.0)
     warn("tissue.voxel_size: ", volume.dropped_volume(), " m^3 of tissue thinner than a voxel was left out");
   if (grips.held().nodes.empty()) warn("tissue.fixed: no node is held, the tissue floats");
+  for (int grip : grips.idle()) warn("tissue.fixed[", grip, "]: holds no node: must reach into the tissue");
   for (const Vec3& X : probes)
     if (tissue_voxel_at(volume, X) < 0)
       warn("probes: [", X.x(), ", ", X.y(), ", ", X.z(), "] lies outside the tissue");

@@ -28,6 +28,7 @@ struct Simulation::State {
 
   // Parts of the stages.
   void meet(const FrontMotion& motion);
+  bool is_jump(const Pose& from, const Pose& to) const;
   bool is_in_earlier_cut(const Touch& touch) const;
   MaterialPoint pushed_in(const Touch& touch, const std::vector<Dent>& dents) const;
   std::vector<Dent> find_dents() const;

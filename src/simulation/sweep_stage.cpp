@@ -7,11 +7,15 @@
 
 namespace cfem_cutting {
 
+bool Simulation::State::is_jump(const Pose& from, const Pose& to) const {
+  return travel(blade, from, to) > config.blade.max_travel;
+}
+
 void Simulation::State::sweep(const StepInput& input) {
   motion = Pose::Identity();
   bool anew = input.front_anew || !tracker.placed();
   for (const Pose& X_TB : input.path) {
-    if (anew || travel(blade, tracker.pose(), X_TB) > config.blade.max_travel) {
+    if (anew || is_jump(tracker.pose(), X_TB)) {
       leave_tissue();
       tracker.place_anew(X_TB, *pull_back);
       motion = Pose::Identity();

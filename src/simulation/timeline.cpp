@@ -8,6 +8,9 @@
 namespace cfem_cutting {
 namespace {
 
+/// s, between two poses; a longer one is a jump, not steps to be taken.
+constexpr double kLongestGap = 60.0;
+
 /// Steps: stamps so near to a multiple of the time step are on it. Stamps since 1970 are known to 2e-7 s
 /// only.
 double tolerance(double time, double time_step) {
@@ -24,12 +27,16 @@ std::int64_t last_multiple_until(double time, double time_step) {
 
 }  // namespace
 
-Timeline::Timeline(double time_step, double max_gap) : time_step_(time_step), max_gap_(max_gap) {}
+Timeline::Timeline(double time_step, IsJump is_jump, double max_gap)
+    : time_step_(time_step), is_jump_(std::move(is_jump)), max_gap_(max_gap) {}
 
 bool Timeline::push(double stamp, const Pose& X_TB) {
   if (!std::isfinite(stamp)) return false;
   if (!poses_.empty() && stamp <= poses_.back().time) return false;
-  poses_.push_back({stamp, X_TB});
+  if (!poses_.empty() && stamp - poses_.back().time > kLongestGap) restart();
+  const bool jump = !poses_.empty() && is_jump_ && is_jump_(poses_.back().X_TB, X_TB);
+  if (jump) ++jumps_;
+  poses_.push_back({stamp, X_TB, jump || (!poses_.empty() && stamp - poses_.back().time > max_gap_)});
   return true;
 }
 
@@ -74,7 +81,7 @@ StepInput Timeline::step_to(std::int64_t end) {
   if (!started_) begin(input);
   const double slack = tolerance(input.time, time_step_) * time_step_;
   while (poses_.size() > 1 && poses_[1].time <= input.time + slack) {
-    if (is_gap(poses_[0], poses_[1])) {
+    if (poses_[1].after_gap) {
       input.path.clear();
       front_anew_ = true;
     }
@@ -96,11 +103,9 @@ void Timeline::begin(StepInput& input) {
   if (time < input.time - slack) input.path.push_back(at(time));
 }
 
-bool Timeline::is_gap(const Stamped& a, const Stamped& b) const { return b.time - a.time > max_gap_; }
-
 Pose Timeline::at(double time) const {
   const Stamped& a = poses_.front();
-  if (poses_.size() == 1 || time <= a.time || is_gap(a, poses_[1])) return a.X_TB;
+  if (poses_.size() == 1 || time <= a.time || poses_[1].after_gap) return a.X_TB;
   const Stamped& b = poses_[1];
   return interpolate(a.X_TB, b.X_TB, std::min(1.0, (time - a.time) / (b.time - a.time)));
 }

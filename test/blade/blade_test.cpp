@@ -28,6 +28,8 @@ TEST(Blade, RefusalsNameKeyAndRule) {
   EXPECT_EQ(refusal({Vec3::Zero(), Vec3::UnitX(), Vec3::UnitX()}, Vec3::UnitZ()),
             "blade.edge: points 2 and 3 coincide: neighbours must differ");
   EXPECT_EQ(refusal({Vec3::Zero(), Vec3::UnitX()}, Vec3::Zero()), "blade.back: [0, 0, 0]: must not be zero");
+  EXPECT_EQ(refusal({Vec3::Zero(), Vec3::UnitX(), {1.0, 0.0, 1.0}}, Vec3::UnitZ()),
+            "blade.back: is along the edge from point 2 to 3: must point from the edge to the spine");
 }
 
 TEST(Blade, BackIsNormalised) {

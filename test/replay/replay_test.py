@@ -4,6 +4,7 @@
 usage: replay_test.py REPLAY PACKAGE [--bags]   (--bags: it was built with ROS and reads bags)
 """
 
+import copy
 import csv
 import filecmp
 import json
@@ -141,6 +142,34 @@ class Cuts(ReplayTest):
                 self.assertLess(summary["front"][part]["max_m"], 0.01 * voxel, (config, voxel, part))
             self.assertEqual(summary["surface"]["flipped"] + summary["surface"]["degenerate"], 0)
             self.assertLess(summary["cut_faces"]["mean_m"], 0.1 * voxel)
+
+    @needs_bags
+    def test_bad_poses_in_a_bag_change_nothing(self):
+        import rosbag
+
+        poses = []
+        with rosbag.Bag(bag("straight_slice")) as clean:
+            messages = list(clean.read_messages())
+        with rosbag.Bag(self.path("bad.bag"), "w") as bad:
+            for i, (topic, message, time) in enumerate(messages):
+                if topic.endswith("measured_cp"):
+                    poses.append(message)
+                    if len(poses) % 20 == 10:
+                        for spoil in (dict(w=float("inf")), dict(x=2.0), dict(x=0.0, y=0.0, z=0.0, w=0.0)):
+                            spoilt = copy.deepcopy(message)
+                            spoilt.header.stamp += type(time).from_sec(0.001) - type(time)()
+                            for key, value in spoil.items():
+                                setattr(spoilt.pose.orientation, key, value)
+                            bad.write(topic, spoilt, time)
+                        bad.write(topic, poses[-5], time)  # late
+                bad.write(topic, message, time)
+        self.assertGreater(len(poses), 100)
+        self.replay("clean", "--bag", bag("straight_slice"))
+        summary = self.replay("bad", "--bag", self.path("bad.bag"))
+        for table in ("steps.csv", "events.csv"):
+            self.assertTrue(filecmp.cmp(*[os.path.join(self.path(o), table) for o in ("clean", "bad")], shallow=False))
+        self.assertIn("unit quaternion", " ".join(summary["warnings"]))
+        self.assertIn("out of order", " ".join(summary["warnings"]))
 
     @needs_bags
     def test_same_bag_gives_identical_files_on_any_number_of_threads(self):

@@ -6,7 +6,7 @@ import time
 import rospy
 import rostest
 
-from node_test import NodeTest, make_pose, slice_poses, wait_until
+from node_test import NodeTest, force, is_zero, make_pose, slice_poses, wait_until
 
 NAN = float("nan")
 
@@ -40,11 +40,33 @@ class BadPosesTest(NodeTest):
             wanted = int(before[key]) + count * bad
             wait_until(lambda: self.count(key) == wanted, "%s is %d, not %d" % (key, wanted, self.count(key)), 20)
 
+    def jumps(self):
+        return int(self.diagnostics.get("simulation", {}).get("jumps", -1))
+
     def test_jump_cuts_nothing(self):
-        for i in range(20):
-            self.poses.publish(make_pose(3000 + 0.02 * i, (0.03, 0.05, 0.08 if i < 10 else 0.03)))
-        self.wait_for_step(3000.38)
-        self.assertEqual(self.steps[-1].links_severed, 0)
+        wait_until(lambda: self.jumps() >= 0, "diagnostics come")
+        for way in (0.03, 0.05):  # step by step the first one is no jump
+            before = self.jumps()
+            start = 3000 + 1000 * way
+            for i in range(20):
+                self.poses.publish(make_pose(start + 0.02 * i, (0.03, 0.05, 0.06 if i < 10 else 0.06 - way)))
+            self.wait_for_step(start + 0.38)
+            self.assertEqual(self.steps[-1].links_severed, 0)
+            wait_until(lambda: self.jumps() > before, "the jump is counted", 20)
+
+    def test_blade_is_let_go_of_while_poses_cannot_be_placed(self):
+        for i in range(60):
+            self.poses.publish(make_pose(6000 + 0.02 * i, (0.03, 0.05, 0.06 - 0.0003 * i)))
+        self.wait_for_step(6001.18)
+        self.assertGreater(force(self.wrenches[-1]), 0.01)
+        end = time.monotonic() + 5
+        while time.monotonic() < end and not is_zero(self.wrenches[-1]):
+            i += 1
+            self.poses.publish(make_pose(6000 + 0.02 * i, (0.03, 0.05, 0.04), frame="nowhere"))
+            time.sleep(0.02)
+        self.assertTrue(is_zero(self.wrenches[-1]))
+        del self.wrenches[:]
+        wait_until(lambda: self.wrenches, "a zero wrench comes again for who listens since", 5)
 
     def test_leading_slash(self):
         for i in range(20):

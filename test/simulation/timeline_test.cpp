@@ -52,7 +52,7 @@ TEST(Timeline, TakesStampsSince1970AsTheyAre) {
 }
 
 TEST(Timeline, HoldsTheBladeInAGapAndJumpsAtItsEnd) {
-  Timeline timeline(0.1, 0.25);
+  Timeline timeline(0.1, {}, 0.25);
   timeline.push(0.0, at_x(0));
   timeline.push(0.35, at_x(1));
   timeline.push(0.4, at_x(2));
@@ -66,6 +66,33 @@ TEST(Timeline, HoldsTheBladeInAGapAndJumpsAtItsEnd) {
   EXPECT_TRUE(after->front_anew);
   ASSERT_EQ(after->path.size(), 2u);
   EXPECT_EQ(after->path.front().translation().x(), 1.0);
+}
+
+TEST(Timeline, JudgesJumpsBetweenPosesAsTheyCome) {
+  const auto is_jump = [](const Pose& a, const Pose& b) {
+    return (b.translation() - a.translation()).norm() > 1.5;
+  };
+  Timeline timeline(0.1, is_jump);
+  timeline.push(0.0, at_x(0));
+  timeline.push(0.2, at_x(1));  // half of it a step
+  timeline.push(0.4, at_x(3));  // half of this, too, but it is a jump
+  for (double x : {0.0, 0.5, 1.0, 1.0}) {
+    const auto input = timeline.next();
+    EXPECT_NEAR(last_x(*input), x, 1e-12);
+    EXPECT_EQ(input->front_anew, input->time == 0.0);
+  }
+  const auto after = timeline.next();
+  EXPECT_TRUE(after->front_anew);
+  EXPECT_EQ(last_x(*after), 3.0);
+  EXPECT_EQ(timeline.jumps(), 1u);
+}
+
+TEST(Timeline, StartsAnewAfterAMinute) {
+  Timeline timeline(0.1);
+  timeline.push(0.0, at_x(0));
+  timeline.next();
+  timeline.push(100.0, at_x(1));
+  EXPECT_NEAR(timeline.next()->time, 100.0, 1e-9);
 }
 
 TEST(Timeline, CatchesUpThroughAllPoses) {

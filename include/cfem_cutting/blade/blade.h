@@ -15,7 +15,7 @@ struct Blade {
 };
 
 /// Checks and normalises.
-/// @throw ConfigError fewer than two points, equal neighbours, or a zero `back`; names blade.edge or
+/// @throw ConfigError fewer than two points, equal neighbours, or a `back` that is zero or along the edge; names blade.edge or
 /// blade.back.
 Blade make_blade(const Polyline& edge, const Vec3& back, double friction);
 

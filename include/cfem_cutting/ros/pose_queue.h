@@ -59,11 +59,11 @@ class PoseQueue {
   /// Forgets the poses that wait; counts and order stay.
   void clear();
 
-  bool empty() const;
+  bool has_placed() const;
   double newest_stamp() const;  ///< s, zero before the first pose
   PoseCounts counts() const;
 
-  /// Time since a valid pose came in, s; infinite before the first.
+  /// Time since a pose was placed, s; infinite before the first.
   double silence() const;
 
  private:
@@ -77,7 +77,7 @@ class PoseQueue {
   std::deque<ReceivedPose> placed_;
   std::deque<ReceivedPose> behind_;  // in order, but before `newest_`
   ros::Time newest_;
-  std::optional<std::chrono::steady_clock::time_point> last_arrival_;
+  std::optional<std::chrono::steady_clock::time_point> last_placing_;
   PoseCounts counts_;
 };
 

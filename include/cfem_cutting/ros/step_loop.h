@@ -34,6 +34,7 @@ struct LoopStatus {
   bool stale = true;         ///< no pose for longer than node.input_timeout
   int inverted_elements = 0;
   std::uint64_t not_converged = 0;  ///< steps
+  std::uint64_t jumps = 0;          ///< poses farther than blade.max_travel from the one before
 };
 
 /// Owns the simulation and steps it in a thread of its own, by the poses' stamps. Everything that touches the
@@ -89,7 +90,7 @@ class StepLoop {
   StepReport last_;
   double newest_ = 0.0;             // s, the last pose's stamp
   bool held_steps_wanted_ = false;  // a pose has come since the input was stale
-  std::chrono::steady_clock::time_point last_step_;
+  std::chrono::steady_clock::time_point last_step_, last_zero_;
   std::optional<std::chrono::steady_clock::time_point> grips_wanted_;
   std::optional<StepInput> pending_;  // waits for the transforms of its grips
 

@@ -31,7 +31,7 @@ class ToolTracker {
   bool grips_are_late(double time) const;
 
   void clear() { queue_.clear(); }
-  bool empty() const { return queue_.empty(); }
+  bool has_poses() const { return queue_.has_placed(); }
   PoseCounts counts() const { return queue_.counts(); }
   double newest_stamp() const { return queue_.newest_stamp(); }
   double silence() const { return queue_.silence(); }
@@ -40,6 +40,7 @@ class ToolTracker {
   double patience() const { return patience_; }
 
  private:
+  void refuse_pose();
   void receive_pose(const geometry_msgs::PoseStamped& message);
   void receive_transform(const geometry_msgs::TransformStamped& message);
   void receive_tf(const tf2_msgs::TFMessage& message);

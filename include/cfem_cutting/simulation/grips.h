@@ -24,8 +24,8 @@ class Grips {
 
   const HeldNodes& held() const { return held_; }
 
-  /// Back to the start.
-  void reset();
+  /// Regions that hold no node, by number.
+  std::vector<int> idle() const;
 
  private:
   struct Carrier {

@@ -37,6 +37,9 @@ class Simulation {
   /// Back to the uncut rest shape.
   void reset();
 
+  /// Whether the blade goes farther than blade.max_travel between two poses: nothing is cut on that way.
+  bool is_jump(const Pose& from, const Pose& to) const;
+
   const SimulationConfig& config() const;
   const VoxelVolume& volume() const;
   const ElasticModel& model() const;
