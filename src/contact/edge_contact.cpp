@@ -87,14 +87,4 @@ void EdgeContact::take_forces(const std::vector<PointConstraint>& constraints, c
   }
 }
 
-double EdgeContact::largest_gap(const CompositeMesh& mesh, const NodeField& x) const {
-  double largest = 0.0;
-  for (const EdgeContactPoint& p : points_) {
-    if (!p.active) continue;
-    const Vec3 gap = p.on_edge - mesh.embed(p.voxel, p.X).apply(x);
-    largest = std::max(largest, (gap - gap.dot(p.tangent) * p.tangent).norm());
-  }
-  return largest;
-}
-
 }  // namespace cfem_cutting

@@ -112,7 +112,6 @@ ElasticModel::ElasticModel(const VoxelVolume& volume, int level, std::vector<Mat
       throw ConfigError("materials: the tissue has label " + std::to_string(label) +
                         ", which no material matches");
     matrices_->material_of_voxel.push_back(material);
-    voxel_mass_.push_back(materials_[material].density * volume.filled_volume(static_cast<int>(v)));
   }
   mesh_ = std::make_unique<CompositeMesh>(volume, level_);
   matrices_->rebuild(volume, *mesh_, nullptr);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "cfem_cutting/elasticity/floating.h"
-#include "conjugate_gradients.h"
 
 namespace cfem_cutting {
 namespace {
@@ -77,13 +76,13 @@ double Equilibrium::rounding(const NodeField& x) const {
          std::sqrt(static_cast<double>(x.size()));
 }
 
-SolveReport Equilibrium::solve_newton(Multigrid& multigrid, const SolverOptions& options, NodeField& x,
-                                      int max_newton) const {
+SolveReport Equilibrium::solve_newton(Multigrid& multigrid, ConjugateGradients& solver,
+                                      const SolverOptions& options, NodeField& x, int max_newton) {
   SolveReport total;
   double initial = 0.0;
-  ElasticResponse elastic = model_.respond(x, &multigrid.pool());
+  model_.respond(x, multigrid.pool(), elastic_);
   for (int newton = 0;; ++newton) {
-    NodeField f = forces(elastic, x);
+    NodeField f = forces(elastic_, x);
     const double reference = std::max(load(f), kLoosestSolve * initial);
     clear_held(f);
     bool held_in_place = true;
@@ -91,50 +90,45 @@ SolveReport Equilibrium::solve_newton(Multigrid& multigrid, const SolverOptions&
       held_in_place = held_in_place && x.col(held_.nodes[i]) == held_.positions[i];
     initial = std::max(initial, f.norm());
     total.residual = f.norm() / reference;
-    total.inverted_elements = elastic.inverted;
+    total.inverted_elements = elastic_.inverted;
     total.converged = held_in_place && (total.residual <= options.tolerance || f.norm() <= rounding(x));
     if (total.converged || newton == max_newton) return total;
     const double inner =
         std::clamp(0.3 * options.tolerance / std::max(total.residual, 1e-300), kTightestSolve, kLoosestSolve);
-    if (!newton_step(multigrid, options, inner, f, elastic, x, total)) return total;
+    if (!newton_step(multigrid, solver, options, inner, f, x, total)) return total;
   }
 }
 
 /// @return false if no step along the direction lowers the energy
-bool Equilibrium::newton_step(Multigrid& multigrid, const SolverOptions& options, double tolerance,
-                              const NodeField& f, ElasticResponse& elastic, NodeField& x,
-                              SolveReport& total) const {
-  const LinearSystem system(multigrid, model_, std::vector<Mat3>(elastic.rotations),
-                            {spring_, 1.0, &constraints_}, held_.nodes, precision_for(tolerance));
+bool Equilibrium::newton_step(Multigrid& multigrid, ConjugateGradients& solver, const SolverOptions& options,
+                              double tolerance, const NodeField& f, NodeField& x, SolveReport& total) {
+  const LinearSystem system(multigrid, model_, std::move(elastic_.rotations), {spring_, 1.0, &constraints_},
+                            held_.nodes, precision_for(tolerance));
   NodeField dx = NodeField::Zero(3, x.cols());
   bool held_moves = false;
   for (std::size_t i = 0; i < held_.nodes.size(); ++i) {
     dx.col(held_.nodes[i]) = held_.positions[i] - x.col(held_.nodes[i]);
     held_moves = held_moves || !dx.col(held_.nodes[i]).isZero(0.0);
   }
-  total.iterations +=
-      ConjugateGradients()
-          .solve(system, f, dx, {tolerance, options.max_iterations, model_.mesh().block_size().mean()})
-          .iterations;
-  if (!held_moves) return search_line(multigrid.pool(), dx, f, elastic, x);
+  const SolveGoal goal{tolerance, options.max_iterations, model_.mesh().block_size().mean()};
+  total.iterations += solver.solve(system, f, dx, goal).iterations;
+  if (!held_moves) return search_line(multigrid.pool(), dx, f, x);
   x += dx;
   for (std::size_t i = 0; i < held_.nodes.size(); ++i) x.col(held_.nodes[i]) = held_.positions[i];
-  elastic = model_.respond(x, &multigrid.pool());
+  model_.respond(x, multigrid.pool(), elastic_);
   return true;
 }
 
 /// Backtracking to a sufficient decrease of the energy (Armijo 1966), up to its rounding.
-bool Equilibrium::search_line(ThreadPool& pool, const NodeField& dx, const NodeField& f,
-                              ElasticResponse& elastic, NodeField& x) const {
+bool Equilibrium::search_line(ThreadPool& pool, const NodeField& dx, const NodeField& f, NodeField& x) {
   const double slope = -f.cwiseProduct(dx).sum();
-  const double before = energy(elastic, x);
+  const double before = energy(elastic_, x);
   const double size = std::abs(before) + kNegligibleForce * force_unit_ * model_.mesh().block_size().mean();
   for (double length = 1.0; length > 1e-4; length *= 0.5) {
     const NodeField moved = x + length * dx;
-    ElasticResponse there = model_.respond(moved, &pool);
-    if (!(energy(there, moved) <= before + 1e-4 * length * slope + 1e-12 * size)) continue;
+    model_.respond(moved, pool, elastic_);
+    if (!(energy(elastic_, moved) <= before + 1e-4 * length * slope + 1e-12 * size)) continue;
     x = moved;
-    elastic = std::move(there);
     return true;
   }
   return false;

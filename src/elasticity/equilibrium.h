@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "linear_system.h"
+#include "conjugate_gradients.h"
 
 namespace cfem_cutting {
 
@@ -15,18 +15,17 @@ class Equilibrium {
 
   /// Newton's method with backtracking. The tangent leaves out ∂R/∂x, so convergence is linear, at a rate of
   /// about the strain.
-  SolveReport solve_newton(Multigrid& multigrid, const SolverOptions& options, NodeField& x,
-                           int max_newton) const;
+  SolveReport solve_newton(Multigrid& multigrid, ConjugateGradients& solver, const SolverOptions& options,
+                           NodeField& x, int max_newton);
 
  private:
   double energy(const ElasticResponse& elastic, const NodeField& x) const;     // J
   NodeField forces(const ElasticResponse& elastic, const NodeField& x) const;  // N, also on held nodes
   double load(const NodeField& forces) const;  // N, size of what acts on the tissue
   double rounding(const NodeField& x) const;   // N, of a sum of forces at x
-  bool newton_step(Multigrid& multigrid, const SolverOptions& options, double tolerance,
-                   const NodeField& forces, ElasticResponse& elastic, NodeField& x, SolveReport& total) const;
-  bool search_line(ThreadPool& pool, const NodeField& dx, const NodeField& forces, ElasticResponse& elastic,
-                   NodeField& x) const;
+  bool newton_step(Multigrid& multigrid, ConjugateGradients& solver, const SolverOptions& options,
+                   double tolerance, const NodeField& forces, NodeField& x, SolveReport& total);
+  bool search_line(ThreadPool& pool, const NodeField& dx, const NodeField& forces, NodeField& x);
   void find_floating_nodes();
   void clear_held(NodeField& field) const;
 
@@ -34,9 +33,10 @@ class Equilibrium {
   NodeField start_;
   HeldNodes held_;
   const std::vector<PointConstraint>& constraints_;
-  Eigen::VectorXd spring_;  // N/m, per node; 0 unless floating
-  NodeField weight_;        // N
-  double force_unit_;       // N, E h²
+  Eigen::VectorXd spring_;   // N/m, per node; 0 unless floating
+  NodeField weight_;         // N
+  double force_unit_;        // N, E h²
+  ElasticResponse elastic_;  // where Newton's method is
 };
 
 }  // namespace cfem_cutting

@@ -53,7 +53,7 @@ SolveReport Integrator::equilibrate(const ElasticModel& model, NodeField& x, con
                                     const HeldNodes& held, const std::vector<PointConstraint>& constraints,
                                     int max_newton) {
   Equilibrium equilibrium(model, x, gravity, held, constraints);
-  return equilibrium.solve_newton(workspace_->multigrid, options_, x, max_newton);
+  return equilibrium.solve_newton(workspace_->multigrid, workspace_->solver, options_, x, max_newton);
 }
 
 std::vector<Vec3> reactions(const ElasticModel& model, const NodeField& x, const Vec3& gravity,

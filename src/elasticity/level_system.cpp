@@ -171,14 +171,14 @@ void LevelSystem::correct_for_constraints(const Eigen::VectorXf& kept, SingleFie
 
 /// One sweep of Chebyshev's iteration for A x = b: `before` becomes x + keep (x − before) + add M⁻¹ (b − A
 /// x).
-/// @param from_zero `before` is zero, whatever it holds
+/// @param ignores_before it is zero, whatever it holds, or `keep` is
 void LevelSystem::sweep(float keep, float add, const SingleField& b, const SingleField& x,
-                        SingleField& before, bool from_zero) const {
+                        SingleField& before, bool ignores_before) const {
   Eigen::VectorXf forces(constraints_.size()), kept(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const float at = constraints_[i].displacement(x);
     forces[i] = constraints_[i].stiffness * at;
-    kept[i] = at + keep * (at - (from_zero ? 0.0f : constraints_[i].displacement(before)));
+    kept[i] = at + keep * (at - (ignores_before ? 0.0f : constraints_[i].displacement(before)));
   }
   before.resize(4, x.cols());
   const auto sweep_from = [&](const auto& start) {
@@ -190,7 +190,7 @@ void LevelSystem::sweep(float keep, float add, const SingleField& b, const Singl
                           });
   };
   const float grow = 1.0f + keep;
-  if (from_zero) {
+  if (ignores_before) {
     sweep_from([grow](const Quad& at, const Quad&) CFEM_CUTTING_INLINE -> Quad { return grow * at; });
   } else {
     sweep_from([grow, keep](const Quad& at, const Quad& earlier)

@@ -65,7 +65,7 @@ class LevelSystem {
   void for_nodes(const Work& work) const;
   struct Chebyshev;
   void sweep(float keep, float add, const SingleField& b, const SingleField& x, SingleField& before,
-             bool from_zero) const;
+             bool ignores_before) const;
   void sweep_on(Chebyshev& chebyshev, const SingleField& b, SingleField& x, bool from_zero) const;
   void scale(const SingleField& r, float factor, SingleField& z) const;
   void correct_for_constraints(const Eigen::VectorXf& kept, SingleField& z) const;

@@ -14,9 +14,8 @@ class ThreadPool {
   explicit ThreadPool(int threads);
   ~ThreadPool();
 
-  /// Calls work(begin, end) on parts of [0, count), each of at least `grain` (or
-  /// one, if there is less), and waits. `work` must not throw.
-
+  /// Calls work(begin, end) on parts of [0, count), each of at least `grain` (or one, if there is less), and
+  /// waits. A thread has a few parts, which others take over if it is late. `work` must not throw.
   void for_range(int count, int grain, const std::function<void(int, int)>& work);
 
  private:

@@ -28,7 +28,8 @@ Pose placement(const TissueConfig& tissue) {
 void check_readable(const std::string& path) {
   if (!std::filesystem::is_directory(path) && std::ifstream(path)) return;
   const bool is_fetched = std::filesystem::path(path).parent_path().filename() == "data";
-  throw FileError(path + ": cannot be read" + (is_fetched ? " (scripts/fetch_data gets the package's data)" : ""));
+  throw FileError(path + ": cannot be read" +
+                  (is_fetched ? " (scripts/fetch_data gets the package's data)" : ""));
 }
 
 std::string read_text(const std::string& path) {

@@ -24,6 +24,15 @@ bool is_result(const std::string& name) {
   return std::regex_match(name, results);
 }
 
+/// What a run that was ended left is removed, but nothing else.
+void refuse_foreign_files(const fs::path& folder) {
+  if (!fs::is_directory(folder)) throw FileError(folder.string() + ": is a file: must be absent");
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (!is_result(entry.path().filename().string()))
+      throw FileError(folder.string() + ": holds " + entry.path().filename().string() +
+                      ", which is no result: must be absent, results are written there first");
+}
+
 void remove_results(const fs::path& folder) {
   fs::remove(folder / kSummary);  // first, so that what is left does not look whole
   std::vector<fs::path> old;
@@ -49,6 +58,7 @@ OutputFolder::OutputFolder(const std::string& path) : whole_(without_trailing_sl
   if (fs::exists(whole_) && !fs::is_directory(whole_))
     throw FileError(path + ": is a file: must be a folder");
   std::error_code error;
+  if (fs::exists(partial_)) refuse_foreign_files(partial_);
   fs::remove_all(partial_, error);
   if (!error) fs::create_directories(partial_, error);
   if (error) throw FileError(partial_.string() + ": cannot be made: " + error.message());

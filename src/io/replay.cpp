@@ -191,8 +191,9 @@ void run_replay(const ReplayOptions& options, const BagReader& read_bag) {
   StepSource steps(recording, simulation, options.duration);
   const RunFigures figures = run_steps(simulation, steps, folder, options.surface_every);
   if (steps.jumps() > 0) {
-    recording.warnings.push_back(std::to_string(steps.jumps()) +
-                                 " pose(s) are farther than blade.max_travel from the one before: nothing is cut there");
+    recording.warnings.push_back(
+        std::to_string(steps.jumps()) +
+        " pose(s) are farther than blade.max_travel from the one before: nothing is cut there");
     std::cerr << "warning: " << recording.warnings.back() << std::endl;
   }
   write_results(folder, simulation, figures, recording.warnings);

@@ -11,7 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kZeroEvery = 0.1;  // s, of zero wrenches while the input is stale
+constexpr double kZeroEvery = 0.1;                    // s, of zero wrenches while the input is stale
 constexpr auto kIdle = std::chrono::milliseconds(1);  // between two looks at an empty queue
 
 double seconds_since(Clock::time_point start) {

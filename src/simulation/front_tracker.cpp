@@ -5,11 +5,6 @@
 
 namespace cfem_cutting {
 
-void FrontTracker::lift() {
-  front_ = {};
-  material_.clear();
-}
-
 void FrontTracker::place_anew(const Pose& X_TB, const InverseMap& reference) {
   X_TB_ = X_TB;
   front_ = place(blade_, X_TB, segment_);

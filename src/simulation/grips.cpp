@@ -42,7 +42,8 @@ Vec3 Grips::position(int grip, const Vec3& X, double time) const {
 std::vector<int> Grips::idle() const {
   std::vector<int> idle;
   for (int grip = 0; grip < static_cast<int>(grips_.size()); ++grip)
-    if (std::find(grip_of_held_.begin(), grip_of_held_.end(), grip) == grip_of_held_.end()) idle.push_back(grip);
+    if (std::find(grip_of_held_.begin(), grip_of_held_.end(), grip) == grip_of_held_.end())
+      idle.push_back(grip);
   return idle;
 }
 

@@ -24,7 +24,8 @@ void refuse_too_many(const Vec3& size, std::int64_t max_voxels) {
   const double count = size.prod();
   if (count <= static_cast<double>(max_voxels)) return;
   throw GeometryError(std::to_string(static_cast<std::int64_t>(std::min(count, 9e18))) +
-                      " voxels: more than " + std::to_string(max_voxels) + "; raise tissue.voxel_size, or check tissue.scale");
+                      " voxels: more than " + std::to_string(max_voxels) +
+                      "; raise tissue.voxel_size, or check tissue.scale");
 }
 
 /// Faces at multiples of the spacing from the tissue frame's origin; an empty layer all around.

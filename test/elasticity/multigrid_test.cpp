@@ -153,11 +153,11 @@ struct FirstGuess : Cycle {
     const NodeField v = NodeField::Zero(3, last.cols());
     return {v, v + earlier + last, {v + earlier, v}};
   }
-  NodeField free_random() const { return from_quads(random(static_cast<unsigned>(std::rand()))); }
+  NodeField free_random(unsigned seed) const { return from_quads(random(seed)); }
 };
 
 TEST_F(FirstGuess, LeavesNothingAlongTheChanges) {
-  const NodeField last = free_random(), earlier = free_random();
+  const NodeField last = free_random(1), earlier = free_random(2);
   RecentChanges changes;
   changes.take(after_changes(last, earlier), pool);
   SingleField r = random(7), guess = SingleField::Zero(4, count), Ax;
@@ -171,15 +171,19 @@ TEST_F(FirstGuess, LeavesNothingAlongTheChanges) {
 }
 
 TEST_F(FirstGuess, BearsWithChangesThatAreParallelOrZero) {
-  const NodeField change = free_random(), none = NodeField::Zero(3, count);
+  const NodeField change = free_random(1), none = NodeField::Zero(3, count);
   for (const auto& [last, earlier] : {std::pair(change, change), {none, none}, {none, change}}) {
     RecentChanges changes;
     changes.take(after_changes(last, earlier), pool);
     SingleField r = random(7), guess = SingleField::Zero(4, count);
-    const float before = r.norm();
+    const SingleField b = r;
     changes.minimise(system, r, guess);
-    EXPECT_TRUE(guess.allFinite());
-    EXPECT_LT(r.norm(), 10.0f * before);
+    if (last.isZero(0.0) && earlier.isZero(0.0)) {
+      EXPECT_EQ(r, b);
+      EXPECT_TRUE(guess.isZero(0.0f));
+    } else {
+      EXPECT_LT(std::abs(dot(r, to_quads(change))), 1e-4 * r.norm() * change.norm());
+    }
   }
 }
 

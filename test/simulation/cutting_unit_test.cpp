@@ -25,7 +25,7 @@ class CuttingUnitOfABar : public testing::Test {
 
   /// With the front at a height.
   void measure(double z, const NodeField& x) {
-    const OffsetField offsets(volume, pieces, mesh, held, mesh.rest(), x);
+    const OffsetField offsets(volume, pieces, mesh, floating, mesh.rest(), x);
     unit.measure(volume, offsets, {{Vec3(0.032, 0.0, z), Vec3(0.032, 0.016, z)}}, kPush, kBlock);
   }
   void measure(double z) { measure(z, mesh.rest()); }
@@ -33,7 +33,7 @@ class CuttingUnitOfABar : public testing::Test {
   VoxelVolume volume = box_volume({0.064, 0.016, 0.032}, kVoxel);
   CompositeMesh mesh{volume, 1};
   Pieces pieces = find_pieces(volume);
-  std::vector<char> held = std::vector<char>(mesh.node_count(), 0);
+  std::vector<char> floating = std::vector<char>(mesh.node_count(), 0);
   std::vector<Crossing> column;
   CuttingUnit unit;
 };

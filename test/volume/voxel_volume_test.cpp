@@ -190,7 +190,8 @@ TEST(VoxelVolume, RefusesTooManyVoxelsBeforeAllocating) {
     VoxelVolume::sample(*box, Vec3::Constant(0.001));
     FAIL() << "sampled 1e9 voxels";
   } catch (const GeometryError& error) {
-    EXPECT_STREQ(error.what(), "1006012008 voxels: more than 20000000; raise tissue.voxel_size");
+    EXPECT_STREQ(error.what(),
+                 "1006012008 voxels: more than 20000000; raise tissue.voxel_size, or check tissue.scale");
   }
 }
 

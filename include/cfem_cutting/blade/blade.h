@@ -15,8 +15,8 @@ struct Blade {
 };
 
 /// Checks and normalises.
-/// @throw ConfigError fewer than two points, equal neighbours, or a `back` that is zero or along the edge; names blade.edge or
-/// blade.back.
+/// @throw ConfigError fewer than two points, equal neighbours, or a `back` that is zero or along the edge;
+/// names blade.edge or blade.back.
 Blade make_blade(const Polyline& edge, const Vec3& back, double friction);
 
 /// Origins of links (heel to tip) in the frame of tool_link, along fixed joints of a URDF document.

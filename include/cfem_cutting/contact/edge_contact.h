@@ -57,9 +57,6 @@ class EdgeContact {
   /// Takes the forces of solved constraints as multipliers, and frees the points that would pull.
   void take_forces(const std::vector<PointConstraint>& constraints, const NodeField& x);
 
-  /// Largest distance of an active point from the edge, m.
-  double largest_gap(const CompositeMesh& mesh, const NodeField& x) const;
-
  private:
   static constexpr int kRows = 3;  // push, sideways, friction
   double spacing_;

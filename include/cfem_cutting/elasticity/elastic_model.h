@@ -41,10 +41,10 @@ class ElasticModel {
   const CompositeMesh& mesh() const { return *mesh_; }
   const Eigen::VectorXd& mass() const { return mass_; }  ///< kg, lumped (|nodes|)
   double total_mass() const { return mass_.sum(); }
-  double voxel_mass(int voxel) const { return voxel_mass_[voxel]; }
 
   /// @param pool to work on several threads
   ElasticResponse respond(const NodeField& x, ThreadPool* pool = nullptr) const;
+  /// Into a response whose memory is of use again.
   void respond(const NodeField& x, ThreadPool& pool, ElasticResponse& response) const;
   double energy(const NodeField& x) const { return respond(x).energy; }
   NodeField forces(const NodeField& x) const { return respond(x).forces; }
@@ -69,7 +69,6 @@ class ElasticModel {
   std::unique_ptr<CompositeMesh> mesh_;
   std::unique_ptr<Matrices> matrices_;
   Eigen::VectorXd mass_;
-  std::vector<double> voxel_mass_;
   std::uint64_t version_ = 0;
 };
 

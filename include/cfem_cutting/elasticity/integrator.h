@@ -44,7 +44,7 @@ struct SolverOptions {
 };
 
 struct SolveReport {
-  int iterations = 0;     ///< of conjugate gradients, summed
+  int iterations = 0;     ///< of conjugate gradients, summed (the first guess takes two products beside)
   double residual = 0.0;  ///< relative, of the last linear solve
   bool converged = true;
   int inverted_elements = 0;  ///< flat or inverted elements where the last tangent was taken

@@ -66,7 +66,7 @@ struct DynamicsConfig {
   SolverOptions solver;
 };
 
-/// What the simulation itself needs. Node settings stand in ros/node_config.h.
+/// What the simulation itself needs. Node settings stand in io/config_reader.h.
 struct SimulationConfig {
   TissueConfig tissue;
   BladeConfig blade;

@@ -39,9 +39,6 @@ class FrontTracker {
   /// @param segment m, longest segment of the front, and longest way of its points in one motion
   FrontTracker(const Blade& blade, double segment) : blade_(blade), segment_(segment) {}
 
-  /// Forgets where the blade was.
-  void lift();
-
   /// Sets the front without a way to there.
   void place_anew(const Pose& X_TB, const InverseMap& reference);
 

@@ -13,8 +13,8 @@ namespace cfem_cutting {
 /// poses are interpolated at the steps' ends, and those that fall inside a step are passed on, so the result
 /// does not depend on the rate of the poses. The first step ends at the first multiple from the first stamp
 /// on. Within a gap the blade is held at the last pose before it; the step that reaches the gap's end starts
-/// there with the front made anew; after a gap of more than a minute the stream starts anew. Used by the node and
-/// offline alike.
+/// there with the front made anew; after a gap of more than a minute the stream starts anew. Used by the node
+/// and offline alike.
 class Timeline {
  public:
   /// @param time_step s
