@@ -37,8 +37,6 @@ struct alignas(64) Share {
     end = last;
     open = round << 32 | static_cast<std::uint32_t>(last - first);
   }
-  bool empty() const { return static_cast<std::uint32_t>(open) == 0; }
-
   /// @return a part, or -1 if there is none left
   int take() {
     std::uint64_t now = open;
@@ -60,8 +58,8 @@ struct ThreadPool::State {
   std::vector<Share> shares;  // the caller's first
   const std::function<void(int, int)>* work = nullptr;
   int count = 0, parts = 0;
-  std::uint64_t round = 0;
-  std::atomic<int> unfinished{0};  // parts of this round
+  alignas(64) std::atomic<int> unfinished{0};       // parts of this round
+  alignas(64) std::atomic<std::uint64_t> round{0};  // all shares are put
   std::atomic<bool> stop{false};
 
   int threads() const { return static_cast<int>(shares.size()); }
@@ -93,19 +91,23 @@ struct ThreadPool::State {
 
   void begin_round() {
     unfinished = parts;
-    ++round;
+    for (int t = 0; t < threads(); ++t)
+      shares[t].put(round + 1, parts * t / threads(), parts * (t + 1) / threads());
+    wake_workers();
+  }
+
+  void wake_workers() {
     {
       const std::lock_guard<std::mutex> lock(mutex);
-      for (int t = 0; t < threads(); ++t)
-        shares[t].put(round, parts * t / threads(), parts * (t + 1) / threads());
+      ++round;
     }
     start.notify_all();
   }
 
   void loop(int thread) {
-    const auto has_work = [&](const Share& share) { return !share.empty(); };
-    for (;;) {
-      wait(start, [&] { return stop || std::any_of(shares.begin(), shares.end(), has_work); });
+    for (std::uint64_t seen = 0;;) {
+      wait(start, [&] { return round != seen; });
+      seen = round;
       if (stop) return;
       while (run_part(thread)) continue;
     }
@@ -120,11 +122,8 @@ ThreadPool::ThreadPool(int threads)
 }
 
 ThreadPool::~ThreadPool() {
-  {
-    const std::lock_guard<std::mutex> lock(state_->mutex);
-    state_->stop = true;
-  }
-  state_->start.notify_all();
+  state_->stop = true;
+  state_->wake_workers();
   for (std::thread& worker : state_->workers) worker.join();
 }
 
