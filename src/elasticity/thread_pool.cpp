@@ -37,6 +37,7 @@ struct alignas(64) Share {
     end = last;
     open = round << 32 | static_cast<std::uint32_t>(last - first);
   }
+
   /// @return a part, or -1 if there is none left
   int take() {
     std::uint64_t now = open;
@@ -64,7 +65,7 @@ struct ThreadPool::State {
 
   int threads() const { return static_cast<int>(shares.size()); }
 
-  /// As long as there is a part of this round that nobody took, work, count and parts stay as they are.
+  /// Until a part that was taken is done, work, count and parts stay as they are.
   bool run_part(int thread) {
     int part = -1;
     for (int i = 0; i < threads() && part < 0; ++i) part = shares[(thread + i) % threads()].take();
