@@ -79,6 +79,13 @@ std::vector<int> sort_by_element(const std::vector<Vec3i>& block, const std::vec
   return order;
 }
 
+std::size_t count_components(const std::vector<int>& root) {
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < root.size(); ++v)
+    if (root[v] == static_cast<int>(v)) ++count;
+  return count;
+}
+
 /// Unites the private nodes of two elements that lie at the same corner positions.
 void unite_shared_corners(UnionFind& nodes, int a, int b, const Vec3i& offset) {
   for (int n = 0; n < 8; ++n) {
@@ -119,6 +126,7 @@ CompositeMesh::CompositeMesh(const VoxelVolume& volume, int level)
   const Joints joints = voxel_joints(volume);
   const std::vector<Vec3i> block = assign_blocks(volume, *this, joints);
   const std::vector<int> root = components_in_blocks(joints, block);
+  elements_.reserve(count_components(root));
   for (int v : sort_by_element(block, root)) {
     const bool starts_element = elements_.empty() || root[elements_.back().voxels.front()] != root[v];
     if (starts_element) elements_.push_back({block[v], {}, {}});

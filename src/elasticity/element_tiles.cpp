@@ -24,6 +24,7 @@ std::vector<std::vector<int>> group_by_matrix(const ElementSet& elements, int be
 
 ElementTiles::ElementTiles(const ElementSet& elements)
     : tile_size_(std::clamp(elements.size() / 4, kTile / 4, kTile)) {
+  nodes.reserve(static_cast<std::size_t>(elements.size()) * 9);  // batches are hardly ever full
   for (int begin = 0; begin < elements.size(); begin += tile_size_)
     add_tile(elements, begin, std::min(elements.size(), begin + tile_size_));
   add_nodes(elements);
@@ -70,6 +71,7 @@ void ElementTiles::add_nodes(const ElementSet& elements) {
 
   // Of each tile: the corners of its elements, by node.
   std::vector<std::vector<std::pair<int, int>>> corners(tiles_.size());
+  for (auto& of_tile : corners) of_tile.reserve(8 * static_cast<std::size_t>(tile_size_));
   std::vector<char> on_border(elements.node_count, 0);
   for (int node = 0; node < elements.node_count; ++node) {
     const int first = at.corners[at.first[node]];
