@@ -39,12 +39,15 @@ bool Simulation::State::holds(const EdgeContactPoint& p) const {
   return pushed_by_front(p) >= -1e-3 * volume.lattice().spacing.minCoeff();
 }
 
-/// On a long way to its end, beyond an earlier cut, the trace follows the edge: a dent that moved the tissue
+/// On a long way to its end, through an earlier cut, the trace follows the edge: a dent that moved the tissue
 /// at the contact point moves it less and less far from there.
 Polyline Simulation::State::follow_edge(const FrontEnd& end, const Vec3& dent) const {
   const double reach = kDentReach * contact_spacing();
   Polyline points;
-  if ((end.X - end.X_at_start).norm() <= reach) return points;
+  const double near = 0.25 * volume.lattice().spacing.minCoeff();
+  const auto is_cut = [&](const Vec3& X) { return cut_surface.distance(X, near) <= near; };
+  if ((end.X - end.X_at_start).norm() <= reach || std::none_of(end.way.begin(), end.way.end(), is_cut))
+    return points;
   for (const Vec3& X : end.way) {
     const double part = std::max(0.0, 1.0 - (X - end.X_at_start).norm() / reach);
     if (tissue_voxel_at(volume, X + part * dent) >= 0) points.push_back(X + part * dent);
