@@ -33,7 +33,7 @@ double Grips::move(const CompositeMesh& mesh, double time, const std::map<std::s
 Vec3 Grips::position(int grip, const Vec3& X, double time) const {
   const GripConfig& g = grips_[grip];
   const double share = g.ramp > 0.0 ? std::min(1.0, time / g.ramp) : 1.0;
-  const Vec3 displaced = X + share * g.displacement;
+  Vec3 displaced = X + share * g.displacement;
   const auto carrier = carriers_.find(g.follow);
   if (carrier == carriers_.end()) return displaced;
   return carrier->second.now * (carrier->second.first.inverse() * displaced);
