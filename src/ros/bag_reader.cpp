@@ -106,7 +106,7 @@ std::string list_unused(const PoseCounts& counts, const std::string& tissue, con
   };
   add(counts.no_stamp, "without a stamp");
   add(counts.invalid, "not finite or without a unit quaternion");
-  add(counts.out_of_order, "out of order");
+  add(counts.received - counts.used - counts.no_stamp - counts.invalid - counts.no_transform, "out of order");
   add(counts.no_transform, "that cannot be brought to frame '" + tissue + "' (" + why_not + ")");
   return list;
 }
