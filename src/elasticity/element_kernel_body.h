@@ -34,8 +34,8 @@ static inline void gather(const KERNEL_SCALAR* x, const int* nodes, Vector* valu
   const Vector ab = SHUFFLE(a, b, 0, kWidth, 1, kWidth + 1), cd = SHUFFLE(c, d, 0, kWidth, 1, kWidth + 1);
   values[0] = SHUFFLE(ab, cd, 0, 1, kWidth, kWidth + 1);
   values[1] = SHUFFLE(ab, cd, 2, 3, kWidth + 2, kWidth + 3);
-  values[2] = SHUFFLE(SHUFFLE(a, b, 2, kWidth + 2, 2, kWidth + 2),
-                      SHUFFLE(c, d, 2, kWidth + 2, 2, kWidth + 2), 0, 1, kWidth, kWidth + 1);
+  values[2] = SHUFFLE(SHUFFLE(a, b, 2, kWidth + 2, 3, kWidth + 3),
+                      SHUFFLE(c, d, 2, kWidth + 2, 3, kWidth + 3), 0, 1, kWidth, kWidth + 1);
 }
 
 /// The inverse of gather, into places.
@@ -101,6 +101,7 @@ static inline void multiply_mirrored(const KERNEL_SCALAR* K, const Vector* R, Ve
 static void multiply(const ElementBatch<KERNEL_SCALAR>& batch) {
   for (int lane = 0; lane < kLanes; lane += kWidth) {
     Vector x[24], u[24], R[9];
+#pragma GCC unroll 8
     for (int n = 0; n < 8; ++n) gather(batch.x, batch.nodes + kLanes * n + lane, x + 3 * n);
     unpack_rotation(batch.rotation + lane, R);
     if (batch.form == MatrixForm::kMirrored) {
@@ -110,6 +111,7 @@ static void multiply(const ElementBatch<KERNEL_SCALAR>& batch) {
       multiply_unmirrored(batch.form, batch.stiffness, lane, u, x);
       rotate(R, false, 0, x, u);
     }
+#pragma GCC unroll 8
     for (int n = 0; n < 8; ++n) scatter(u + 3 * n, lane, batch.y + 4 * kLanes * n);
   }
 }

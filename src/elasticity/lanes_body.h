@@ -13,7 +13,9 @@ static inline void store(KERNEL_SCALAR* p, Vector v) { *reinterpret_cast<Loose*>
 
 /// u = Rᵀ x (transposed) or R x for nodes from the first on.
 static inline void rotate(const Vector* R, bool transposed, int first, const Vector* x, Vector* u) {
+#pragma GCC unroll 8
   for (int n = first; n < 8; ++n) {
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
       const Vector a = R[transposed ? i : 3 * i], b = R[transposed ? 3 + i : 3 * i + 1];
       const Vector c = R[transposed ? 6 + i : 3 * i + 2];
@@ -22,15 +24,18 @@ static inline void rotate(const Vector* R, bool transposed, int first, const Vec
   }
 }
 
-/// Σ (−1)^|s & n| v_n for each s: Walsh's transform over the nodes.
+/// Σ (−1)^|s & n| v_n for each s: Walsh's transform over the nodes, a coordinate at a time in registers.
 static inline void transform(Vector* v) {
-  for (int bit = 1; bit < 8; bit *= 2) {
-    for (int n = 0; n < 8; ++n) {
-      if (n & bit) continue;
-      for (int i = 0; i < 3; ++i) {
-        const Vector a = v[3 * n + i], b = v[3 * (n | bit) + i];
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) {
+#pragma GCC unroll 3
+    for (int bit = 1; bit < 8; bit *= 2) {
+#pragma GCC unroll 4
+      for (int pair = 0; pair < 4; ++pair) {
+        const int n = 2 * pair - (pair & (bit - 1));  // bits of `pair`, and a zero at `bit`
+        const Vector a = v[3 * n + i], b = v[3 * (n + bit) + i];
         v[3 * n + i] = a + b;
-        v[3 * (n | bit) + i] = a - b;
+        v[3 * (n + bit) + i] = a - b;
       }
     }
   }

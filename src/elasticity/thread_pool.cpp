@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "subnormals.h"
+
 namespace cfem_cutting {
 
 namespace {
@@ -106,6 +108,7 @@ struct ThreadPool::State {
   }
 
   void loop(int thread) {
+    const FlushSubnormals flush;
     for (std::uint64_t seen = 0;;) {
       wait(start, [&] { return round != seen; });
       seen = round;
@@ -129,6 +132,7 @@ ThreadPool::~ThreadPool() {
 }
 
 void ThreadPool::for_range(int count, int grain, const std::function<void(int, int)>& work) {
+  const FlushSubnormals flush;
   const int threads = state_->threads();
   const int parts = std::min(threads * kPartsPerThread, count / std::max(1, grain));
   if (threads == 1 || parts <= 1) {
