@@ -22,8 +22,7 @@ bool share_face(const ElementSet& set, int lower, int upper, int axis) {
   return true;
 }
 
-std::vector<FacePair> find_face_pairs(const ElementSet& set) {
-  const NodeCorners at(set);
+std::vector<FacePair> find_face_pairs(const ElementSet& set, const NodeCorners& at) {
   std::vector<FacePair> pairs;
   for (int e = 0; e < set.size(); ++e) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -105,8 +104,9 @@ Eigen::Matrix<double, 8, 1> corner_weights(const Vec3i& offset, int n) {
   return weights;
 }
 
-Coarsening::Coarsening(const ElementSet& fine) {
-  const std::vector<FacePair> pairs = find_face_pairs(fine);
+Coarsening::Coarsening(const TiledElements& elements) {
+  const ElementSet& fine = elements.set;
+  const std::vector<FacePair> pairs = find_face_pairs(fine, elements.corners);
   parent = find_parents(fine, pairs);
   const int count = parent.empty() ? 0 : *std::max_element(parent.begin(), parent.end()) + 1;
   coarse.block.resize(count);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "element_set.h"
+#include "element_tiles.h"
 #include "thread_pool.h"
 
 namespace cfem_cutting {
@@ -25,7 +25,7 @@ struct Interpolation {
 /// that lie in one coarse block and are joined by faces are one coarse element; so the two sides of a cut
 /// stay apart.
 struct Coarsening {
-  explicit Coarsening(const ElementSet& fine);
+  explicit Coarsening(const TiledElements& fine);
 
   ElementSet coarse;            ///< without stiffness
   std::vector<int> parent;      ///< coarse element of each fine one

@@ -88,6 +88,12 @@ std::size_t count_components(const std::vector<int>& root) {
 
 /// Unites the private nodes of two elements that lie at the same corner positions.
 void unite_shared_corners(UnionFind& nodes, int a, int b, const Vec3i& offset) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (offset != Vec3i::Unit(axis)) continue;
+    for (int n = 0; n < 8; ++n)
+      if (!(n >> axis & 1)) nodes.unite(8 * a + (n | 1 << axis), 8 * b + n);
+    return;
+  }
   for (int n = 0; n < 8; ++n) {
     const Vec3i bits = corner_bits(n) - offset;
     if ((bits.array() < 0).any() || (bits.array() > 1).any()) continue;
@@ -96,18 +102,19 @@ void unite_shared_corners(UnionFind& nodes, int a, int b, const Vec3i& offset) {
 }
 
 /// Numbers the united private nodes by their first occurrence.
-/// @return the number of nodes
-int number_nodes(UnionFind& sets, std::vector<CompositeElement>& elements) {
-  std::vector<int> number(8 * elements.size(), -1);
-  int count = 0;
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    for (int n = 0; n < 8; ++n) {
-      int& of_root = number[sets.find(static_cast<int>(8 * e) + n)];
-      if (of_root < 0) of_root = count++;
-      elements[e].nodes[n] = of_root;
+/// @return for each node the private one that came first, as 8 e + corner
+std::vector<int> number_nodes(UnionFind& sets, std::vector<CompositeElement>& elements) {
+  std::vector<int> number(8 * elements.size(), -1), first;
+  first.reserve(2 * elements.size());
+  for (int i = 0; i < static_cast<int>(number.size()); ++i) {
+    int& of_root = number[sets.find(i)];
+    if (of_root < 0) {
+      of_root = static_cast<int>(first.size());
+      first.push_back(i);
     }
+    elements[i / 8].nodes[i % 8] = of_root;
   }
-  return count;
+  return first;
 }
 
 }  // namespace
@@ -139,11 +146,11 @@ CompositeMesh::CompositeMesh(const VoxelVolume& volume, int level)
     const int a = element_of_voxel_[v], b = element_of_voxel_[w];
     if (a != b) unite_shared_corners(nodes, a, b, elements_[b].block - elements_[a].block);
   }
-  rest_.resize(3, number_nodes(nodes, elements_));
-  for (const CompositeElement& element : elements_)
-    for (int n = 0; n < 8; ++n)
-      rest_.col(element.nodes[n]) =
-          volume.lattice().corner(first_voxel_ + (element.block + corner_bits(n)) * (1 << level));
+  const std::vector<int> first = number_nodes(nodes, elements_);
+  rest_.resize(3, static_cast<Eigen::Index>(first.size()));
+  for (std::size_t node = 0; node < first.size(); ++node)
+    rest_.col(static_cast<Eigen::Index>(node)) = volume.lattice().corner(
+        first_voxel_ + (elements_[first[node] / 8].block + corner_bits(first[node] % 8)) * (1 << level));
 }
 
 Embedding CompositeMesh::embed_in_element(int element, const Vec3& X) const {

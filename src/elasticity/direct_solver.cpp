@@ -13,7 +13,7 @@ void DirectSolver::factorise(const ElementProduct& product, float stiffness_fact
                              const std::vector<ConstraintRow>& constraints, const std::vector<char>& held) {
   held_ = held;
   entries_.clear();
-  const ElementSet& elements = product.elements();
+  const ElementSet& elements = product.elements().set;
   for (int e = 0; e < elements.size(); ++e) {
     const Mat3& R = product.rotations()[e];
     for (int n = 0; n < 8; ++n)

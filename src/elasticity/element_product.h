@@ -28,7 +28,7 @@ class ElementProduct {
   /// @param rotations of the elements; exchanged for the last ones
   void rotate(std::vector<Mat3>&& rotations);
 
-  const ElementSet& elements() const { return elements_->set; }
+  const TiledElements& elements() const { return *elements_; }
   const std::vector<Mat3>& rotations() const { return rotations_; }
   ThreadPool& pool() const { return *pool_; }
 

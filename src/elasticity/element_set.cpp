@@ -2,6 +2,13 @@
 
 namespace cfem_cutting {
 
+std::vector<double> ElementSet::traces() const {
+  std::vector<double> traces(stiffness.size());
+  for (std::size_t e = 0; e < traces.size(); ++e)  // neighbours mostly have one object
+    traces[e] = e > 0 && stiffness[e] == stiffness[e - 1] ? traces[e - 1] : stiffness[e]->trace();
+  return traces;
+}
+
 NodeCorners::NodeCorners(const ElementSet& set)
     : first(set.node_count + 1, 0), corners(8 * set.nodes.size()) {
   for (const ElementNodes& nodes : set.nodes)

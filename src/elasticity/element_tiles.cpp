@@ -22,12 +22,12 @@ std::vector<std::vector<int>> group_by_matrix(const ElementSet& elements, int be
 
 }  // namespace
 
-ElementTiles::ElementTiles(const ElementSet& elements)
+ElementTiles::ElementTiles(const ElementSet& elements, const NodeCorners& at)
     : tile_size_(std::clamp(elements.size() / 4, kTile / 4, kTile)) {
   nodes.reserve(static_cast<std::size_t>(elements.size()) * 9);  // batches are hardly ever full
   for (int begin = 0; begin < elements.size(); begin += tile_size_)
     add_tile(elements, begin, std::min(elements.size(), begin + tile_size_));
-  add_nodes(elements);
+  add_nodes(elements, at);
   add_totals(elements.node_count);
 }
 
@@ -59,8 +59,7 @@ void ElementTiles::add_tile(const ElementSet& elements, int begin, int end) {
 }
 
 /// Per tile its nodes with the quads that they add up.
-void ElementTiles::add_nodes(const ElementSet& elements) {
-  const NodeCorners at(elements);
+void ElementTiles::add_nodes(const ElementSet& elements, const NodeCorners& at) {
   std::vector<int> slot_of_corner(8 * static_cast<std::size_t>(elements.size()));
   for (const Tile& tile : tiles_)
     for (int b = tile.first_batch; b < tile.end_batch; ++b)

@@ -23,7 +23,7 @@ class ElementTiles {
   };
 
   ElementTiles() = default;
-  explicit ElementTiles(const ElementSet& elements);
+  ElementTiles(const ElementSet& elements, const NodeCorners& at);
 
   int size() const { return static_cast<int>(batches.size()); }
   const int* nodes_of(int batch) const { return nodes.data() + static_cast<std::size_t>(batch) * 8 * kLanes; }
@@ -132,7 +132,7 @@ class ElementTiles {
 
   void add_batches(const std::vector<int>& elements, bool shared);
   void add_tile(const ElementSet& elements, int begin, int end);
-  void add_nodes(const ElementSet& elements);
+  void add_nodes(const ElementSet& elements, const NodeCorners& at);
   void add_totals(int node_count);
 
   int tile_size_ = kTile;  // elements
@@ -141,10 +141,12 @@ class ElementTiles {
   Sums<int> total_sums_;                          // of border_sums_, in order
 };
 
-/// Elements and their tiles, which several users of a mesh share.
+/// Elements, where they meet, and their tiles, which several users of a mesh share.
 struct TiledElements {
-  explicit TiledElements(ElementSet elements) : set(std::move(elements)), tiles(set) {}
+  explicit TiledElements(ElementSet elements)
+      : set(std::move(elements)), corners(set), tiles(set, corners) {}
   const ElementSet set;
+  const NodeCorners corners;
   const ElementTiles tiles;
 };
 using ElementsPointer = std::shared_ptr<const TiledElements>;

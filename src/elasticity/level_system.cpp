@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 // A lambda's body goes into the loop that calls it.
 #if defined(__GNUC__)
@@ -39,11 +40,16 @@ void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
   stiffness_factor_ = 1.0f;
   constraints_.clear();
   product_.arrange(std::move(elements));
-  invert_blocks();
-  mean_at_rest_ = 0.0;
-  for (const NodeBlock& block : blocks_) mean_at_rest_ += block.diagonal.sum() / (3.0 * blocks_.size());
-  largest_ = kSafety * largest_eigenvalue();
+  const std::vector<double> traces = product_.elements().set.traces();
+  mean_at_rest_ = std::accumulate(traces.begin(), traces.end(), 0.0) / (3.0 * held_.size());
 }
+
+double LevelSystem::largest_at_rest() {
+  invert_blocks();
+  return largest_eigenvalue();
+}
+
+void LevelSystem::expect_largest(double eigenvalue) { largest_ = kSafety * eigenvalue; }
 
 void LevelSystem::estimate_largest() { largest_ = std::max(largest_, kSafety * largest_eigenvalue()); }
 

@@ -34,6 +34,11 @@ class LevelSystem {
   const std::vector<char>& held() const { return held_; }
   const Eigen::VectorXf& node_diagonal() const { return node_diagonal_; }
   const std::vector<ConstraintRow>& constraints() const { return constraints_; }
+
+  /// An estimate of M⁻¹ A's largest eigenvalue, right after `arrange`.
+  double largest_at_rest();
+  void expect_largest(double eigenvalue);
+
   /// Estimates the largest eigenvalue anew, for the rotations as they are.
   void estimate_largest();
 

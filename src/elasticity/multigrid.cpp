@@ -52,10 +52,10 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
   levels_.clear();
   add_level(model.elements(), std::move(flags));
   while (levels_.size() < kMostLevels &&
-         levels_.back().system.product().elements().node_count > kCoarsestNodes) {
+         levels_.back().system.product().elements().set.node_count > kCoarsestNodes) {
     Level& fine = levels_.back();
-    const ElementSet& elements = fine.system.product().elements();
-    Coarsening coarsening(elements);
+    const ElementSet& elements = fine.system.product().elements().set;
+    Coarsening coarsening(fine.system.product().elements());
     if (coarsening.coarse.size() == elements.size()) break;
     if (galerkin_.size() < levels_.size()) galerkin_.emplace_back();
     coarsening.coarse.stiffness =
@@ -71,7 +71,10 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
 }
 
 void Multigrid::add_level(ElementsPointer elements, std::vector<char> held) {
-  levels_.emplace_back(pool_).system.arrange(std::move(elements), std::move(held));
+  LevelSystem& system = levels_.emplace_back(pool_).system;
+  system.arrange(std::move(elements), std::move(held));
+  if (largest_.size() < levels_.size()) largest_.emplace_back();
+  system.expect_largest(largest_[levels_.size() - 1].update(system));
 }
 
 void Multigrid::set(std::vector<Mat3>&& rotations, const SystemValues& values) {
@@ -82,7 +85,7 @@ void Multigrid::set(std::vector<Mat3>&& rotations, const SystemValues& values) {
   for (std::size_t l = 1; l < levels_.size(); ++l) {
     const Level& fine = levels_[l - 1];
     LevelSystem& coarse = levels_[l].system;
-    const ElementSet& elements = coarse.product().elements();
+    const ElementSet& elements = coarse.product().elements().set;
     Eigen::VectorXf diagonal = Eigen::VectorXf::Zero(elements.node_count);
     for (int n = 0; n < fine.interpolation.rows(); ++n)
       for (int i = fine.interpolation.first[n]; i < fine.interpolation.first[n + 1]; ++i)

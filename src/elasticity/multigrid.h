@@ -6,6 +6,7 @@
 #include "cfem_cutting/elasticity/integrator.h"
 #include "coarsening.h"
 #include "galerkin.h"
+#include "largest_eigenvalue.h"
 #include "level_system.h"
 
 namespace cfem_cutting {
@@ -61,7 +62,8 @@ class Multigrid {
   std::uint64_t version_ = 0;
   std::vector<int> held_;
   std::deque<Level> levels_;
-  std::vector<GalerkinMatrices> galerkin_;  // kept from mesh to mesh
+  std::vector<GalerkinMatrices> galerkin_;   // kept from mesh to mesh
+  std::vector<LargestEigenvalue> largest_;   // kept, too
 };
 
 }  // namespace cfem_cutting

@@ -92,7 +92,7 @@ TEST_F(Cycle, TakesMostOfAnyErrorAway) {
 }
 
 TEST_F(Cycle, InterpolationKeepsRigidTranslations) {
-  const Coarsening coarsening(model.elements()->set);
+  const Coarsening coarsening(*model.elements());
   EXPECT_LT(coarsening.coarse.size(), model.elements()->set.size() / 3);
   const SingleField ones = SingleField::Ones(4, coarsening.coarse.node_count);
   SingleField fine;

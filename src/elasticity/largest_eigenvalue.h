@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "level_system.h"
+
+namespace cfem_cutting {
+
+/// The largest eigenvalue of a level's M⁻¹ A at rest, kept from mesh to mesh. After a cut it is looked for
+/// only at the nodes of elements that changed: no eigenvalue of a principal part of M⁻¹ A is larger than the
+/// whole's.
+class LargestEigenvalue {
+ public:
+  /// @param level right after LevelSystem::arrange
+  double update(LevelSystem& level);
+
+ private:
+  /// An element as its neighbours see it: elements with equal ones are alike and lie alike.
+  struct Print {
+    std::uint64_t place;  // Morton's
+    std::uint64_t look;   // of its matrix, and of the nodes: how many elements meet there, and whether held
+    int element;
+  };
+  static std::vector<Print> prints_of(const LevelSystem& level);
+  static bool before(const Print& a, const Print& b);
+  static double largest_near(const std::vector<Print>& changed, const LevelSystem& level);
+
+  std::vector<Print> known_;
+  double largest_ = 0.0;
+};
+
+}  // namespace cfem_cutting
