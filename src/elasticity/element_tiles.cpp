@@ -58,38 +58,43 @@ void ElementTiles::add_tile(const ElementSet& elements, int begin, int end) {
         nodes[(b * 8 + n) * kLanes + lane] = elements.nodes[element_of_lane[batches[b].first + lane]][n];
 }
 
-/// Per tile its nodes with the quads that they add up.
-void ElementTiles::add_nodes(const ElementSet& elements, const NodeCorners& at) {
-  std::vector<int> slot_of_corner(8 * static_cast<std::size_t>(elements.size()));
+/// Slots of corners among the quads of their tile, as 8 e + corner.
+std::vector<std::uint16_t> ElementTiles::slots_of_corners(const ElementSet& elements) const {
+  std::vector<std::uint16_t> slots(8 * static_cast<std::size_t>(elements.size()));
   for (const Tile& tile : tiles_)
     for (int b = tile.first_batch; b < tile.end_batch; ++b)
       for (int lane = 0; lane < batches[b].count; ++lane)
         for (int n = 0; n < 8; ++n)
-          slot_of_corner[8 * element_of_lane[batches[b].first + lane] + n] =
-              ((b - tile.first_batch) * 8 + n) * kLanes + place_of_lane(lane);
+          slots[8 * element_of_lane[batches[b].first + lane] + n] =
+              static_cast<std::uint16_t>(((b - tile.first_batch) * 8 + n) * kLanes + place_of_lane(lane));
+  return slots;
+}
 
-  // Of each tile: the corners of its elements, by node.
-  std::vector<std::vector<std::pair<int, int>>> corners(tiles_.size());
-  for (auto& of_tile : corners) of_tile.reserve(8 * static_cast<std::size_t>(tile_size_));
-  std::vector<char> on_border(elements.node_count, 0);
+/// Per tile its nodes with the quads that they add up. Those inside tiles come tile by tile of themselves.
+void ElementTiles::add_nodes(const ElementSet& elements, const NodeCorners& at) {
+  const std::vector<std::uint16_t> slots = slots_of_corners(elements);
+  std::vector<std::vector<std::pair<int, std::uint16_t>>> on_border(tiles_.size());  // node, slot
+  const auto tile_of = [&](int i) { return at.corners[i] / 8 / tile_size_; };
   for (int node = 0; node < elements.node_count; ++node) {
-    const int first = at.corners[at.first[node]];
-    for (int i = at.first[node]; i < at.first[node + 1]; ++i) {
-      const int tile = at.corners[i] / 8 / tile_size_;
-      corners[tile].emplace_back(node, slot_of_corner[at.corners[i]]);
-      if (tile != first / 8 / tile_size_) on_border[node] = 1;
+    const int first = at.first[node], end = at.first[node + 1];
+    if (tile_of(first) == tile_of(end - 1)) {
+      for (int i = first; i < end; ++i) inner_sums_.add(node, i == first, slots[at.corners[i]]);
+      tiles_[tile_of(first)].end_inner = static_cast<int>(inner_sums_.nodes.size());
+    } else {
+      for (int i = first; i < end; ++i) on_border[tile_of(i)].emplace_back(node, slots[at.corners[i]]);
     }
   }
+  int inner = 0;
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
     Tile& tile = tiles_[t];
-    tile.inner = static_cast<int>(inner_sums_.nodes.size());
+    tile.inner = inner;
+    inner = tile.end_inner = std::max(inner, tile.end_inner);
     tile.border = static_cast<int>(border_sums_.nodes.size());
-    for (std::size_t i = 0; i < corners[t].size(); ++i) {
-      const auto [node, slot] = corners[t][i];
-      Sums<std::uint16_t>& sums = on_border[node] ? border_sums_ : inner_sums_;
-      sums.add(node, i == 0 || corners[t][i - 1].first != node, static_cast<std::uint16_t>(slot));
+    int last = -1;
+    for (const auto& [node, slot] : on_border[t]) {
+      border_sums_.add(node, node != last, slot);
+      last = node;
     }
-    tile.end_inner = static_cast<int>(inner_sums_.nodes.size());
     tile.end_border = static_cast<int>(border_sums_.nodes.size());
   }
 }

@@ -132,6 +132,7 @@ class ElementTiles {
 
   void add_batches(const std::vector<int>& elements, bool shared);
   void add_tile(const ElementSet& elements, int begin, int end);
+  std::vector<std::uint16_t> slots_of_corners(const ElementSet& elements) const;
   void add_nodes(const ElementSet& elements, const NodeCorners& at);
   void add_totals(int node_count);
 
