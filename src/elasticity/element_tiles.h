@@ -144,8 +144,7 @@ class ElementTiles {
 
 /// Elements, where they meet, and their tiles, which several users of a mesh share.
 struct TiledElements {
-  explicit TiledElements(ElementSet elements)
-      : set(std::move(elements)), corners(set), tiles(set, corners) {}
+  explicit TiledElements(ElementSet elements) : set(std::move(elements)), corners(set), tiles(set, corners) {}
   const ElementSet set;
   const NodeCorners corners;
   const ElementTiles tiles;

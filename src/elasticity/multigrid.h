@@ -62,8 +62,8 @@ class Multigrid {
   std::uint64_t version_ = 0;
   std::vector<int> held_;
   std::deque<Level> levels_;
-  std::vector<GalerkinMatrices> galerkin_;   // kept from mesh to mesh
-  std::vector<LargestEigenvalue> largest_;   // kept, too
+  std::vector<GalerkinMatrices> galerkin_;  // kept from mesh to mesh
+  std::vector<LargestEigenvalue> largest_;  // kept, too
 };
 
 }  // namespace cfem_cutting

@@ -15,8 +15,8 @@ class ThreadPool {
   ~ThreadPool();
 
   /// Calls work(begin, end) on parts of [0, count), each of at least `grain` (or one, if there is less), and
-  /// waits. A thread has a few parts, which others take over if it is late. `work` must not throw; inside, subnormal
-  /// numbers are zero.
+  /// waits. A thread has a few parts, which others take over if it is late. `work` must not throw; inside,
+  /// subnormal numbers are zero.
   void for_range(int count, int grain, const std::function<void(int, int)>& work);
 
  private:

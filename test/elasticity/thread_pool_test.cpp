@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <limits>
 #include <vector>
 
 namespace cfem_cutting {
@@ -44,6 +45,19 @@ TEST_P(Threads, SeeWhatRoundsBeforeWrote) {
     });
   for (int value : values) EXPECT_EQ(value, 20000);
 }
+
+#if defined(__SSE2__)
+TEST_P(Threads, TakeSubnormalNumbersForZeroInTheWorkAlone) {
+  ThreadPool pool(GetParam());
+  const volatile float small = std::numeric_limits<float>::min();
+  std::vector<float> halves(64, 1.0f);
+  pool.for_range(64, 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) halves[i] = 0.5f * small;
+  });
+  for (float half : halves) EXPECT_EQ(half, 0.0f);
+  EXPECT_GT(0.5f * small, 0.0f);
+}
+#endif
 
 }  // namespace
 }  // namespace cfem_cutting
