@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 namespace cfem_cutting {
 namespace {
@@ -11,6 +12,9 @@ constexpr double kTruncation = 0.1;
 /// Beside a cut, and where a vertex is near its cell's walls, the skin's planes fix a second direction only
 /// if they differ by more than a crease of 33°.
 constexpr double kCrease = 0.3;
+
+/// Of the room's edges: where there is a cut, the skin's planes may be missed by less.
+constexpr double kSkinGives = 0.2;
 
 /// Of the room's edges.
 constexpr double kMargin = 0.15;
@@ -27,12 +31,42 @@ Vec3 go(const Vec3& from, const Vec3& way, const Box& room) {
   return from + part * way;
 }
 
+/// Towards the planes' minimum along allowed directions: along a wall of the room, too, where it is in the way.
+Vec3 slide(Vec3 X, const ErrorFunction& planes, Mat3 allowed, const Box& room) {
+  for (int walls = 0; walls < 3; ++walls) {
+    const Vec3 way = planes.way_to_minimum(X, kTruncation, allowed);
+    const Vec3 end = go(X, way, room);
+    const Vec3 left = X + way - end;
+    X = end;
+    Eigen::Index axis = 0;
+    const Vec3 beyond = (X + left - clamp(X + left, room)).cwiseAbs();
+    if (!(beyond.maxCoeff(&axis) > 0.0)) break;
+    const Vec3 normal = allowed.col(axis);  // of the wall, as far as allowed
+    if (normal[axis] < 1e-6) break;
+    allowed -= normal * normal.transpose() / normal[axis];
+  }
+  return X;
+}
+
 /// The way off the room's walls along directions that the planes hardly fix: vertices of neighbouring cells
 /// that meet there make needles.
 Vec3 way_off_walls(const Vec3& X, const ErrorFunction& planes, double truncation, const Box& room) {
   const Vec3 margin = kMargin * room.sizes();
   const Vec3 inwards = clamp(X, Box(room.min() + margin, room.max() - margin)) - X;
   return planes.free_directions(truncation) * inwards;
+}
+
+Vec3 minimum_on_cut(const Vec3& start, const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
+  const Mat3 in_plane = cut.free_directions(kTruncation);
+  const Vec3 on_cut = clamp(start + cut.way_to_minimum(start, kTruncation), room);
+  const Vec3 X = slide(on_cut, skin, in_plane, room);
+  return go(X, in_plane * way_off_walls(X, skin + cut, kCrease, room), room);
+}
+
+Vec3 minimum_on_skin(const Vec3& start, const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
+  const Vec3 on_skin = clamp(start + skin.way_to_minimum(start, kCrease), room);
+  const Vec3 X = go(on_skin, cut.way_to_minimum(on_skin, kTruncation, skin.free_directions(kCrease)), room);
+  return clamp(X + way_off_walls(X, skin + cut, kCrease, room), room);
 }
 
 }  // namespace
@@ -42,12 +76,14 @@ void ErrorFunction::add(const SurfacePoint& plane) {
   const Vec3 p = plane.point - first_;
   AtA_ += plane.normal * plane.normal.transpose();
   Atb_ += plane.normal * plane.normal.dot(p);
+  btb_ += std::pow(plane.normal.dot(p), 2);
   sum_ += p;
 }
 
 ErrorFunction operator+(ErrorFunction a, const ErrorFunction& b) {
   const Vec3 shift = b.first_ - a.first_;
   a.Atb_ += b.Atb_ + b.AtA_ * shift;
+  a.btb_ += b.btb_ + shift.dot(2.0 * b.Atb_ + b.AtA_ * shift);
   a.AtA_ += b.AtA_;
   a.sum_ += b.sum_ + b.count_ * shift;
   a.count_ += b.count_;
@@ -66,6 +102,11 @@ Vec3 ErrorFunction::way_to_minimum(const Vec3& X, double truncation, const Mat3&
       way += axis * (axis.dot(residual) / eigen.eigenvalues()[i]);
   }
   return way;
+}
+
+double ErrorFunction::misfit(const Vec3& X) const {
+  const Vec3 x = X - first_;
+  return std::sqrt(std::max(0.0, x.dot(AtA_ * x - 2.0 * Atb_) + btb_) / count_);
 }
 
 Mat3 ErrorFunction::free_directions(double truncation) const {
@@ -91,9 +132,9 @@ Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& roo
     return skin.empty() ? go(X, way_off_walls(X, cut, kTruncation, room), room)  // stays in a plane
                         : clamp(X + way_off_walls(X, skin, kCrease, room), room);
   }
-  const Vec3 on_skin = clamp(start + skin.way_to_minimum(start, kCrease), room);
-  const Vec3 X = go(on_skin, cut.way_to_minimum(on_skin, kTruncation, skin.free_directions(kCrease)), room);
-  return clamp(X + way_off_walls(X, skin + cut, kCrease, room), room);
+  const Vec3 on_cut = minimum_on_cut(start, skin, cut, room);
+  const bool near_skin = skin.misfit(on_cut) < kSkinGives * room.sizes().minCoeff();
+  return near_skin ? on_cut : minimum_on_skin(start, skin, cut, room);
 }
 
 }  // namespace cfem_cutting
