@@ -32,11 +32,17 @@ const Rule<std::vector<LabelColour>> kLabelColours{"a list of mappings, no two o
 
 Fields<SurfaceConfig> surface_fields() {
   using S = SurfaceConfig;
+  using Shadings = std::vector<std::pair<std::string, Shading>>;
   return {
       field<S>(
           "influence_domain_adaptation", "", true_or_false(),
           [](S & s) -> auto& { return s.influence_domain_adaptation; },
           "Draw the surface exactly on the blade's edge."),
+      choice<S>(
+          "shading", Shadings{{"flat", Shading::kFlat}, {"smooth", Shading::kSmooth}},
+          [](S & s) -> auto& { return s.shading; },
+          "Of the markers: triangle by triangle, lit by rviz; or smooth, lit from above in the tissue frame "
+          "(1.7 times the data)."),
       field<S>(
           "hidden_labels", "", labels(), [](S & s) -> auto& { return s.hidden_labels; },
           "Labels whose skin and cut faces are left out of the markers."),

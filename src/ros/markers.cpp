@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "cfem_cutting/ros/conversions.h"
+#include "shading.h"
 
 namespace cfem_cutting {
 namespace {
@@ -73,7 +74,10 @@ void add_triangles(const DeformedSurface& surface, bool cut, const Marker& other
     const std::array<int, 3>& corners = surface.triangles[t];
     const auto& p = surface.positions;
     if (!p[corners[0]].allFinite() || !p[corners[1]].allFinite() || !p[corners[2]].allFinite()) continue;
-    for (int corner : corners) markers[place].points.push_back(to_point(p[corner]));
+    Marker& marker = markers[place];
+    for (int corner : corners) marker.points.push_back(to_point(p[corner]));
+    if (look.shading == Shading::kFlat) continue;
+    for (int corner : corners) marker.colors.push_back(shade(marker.color, surface.normals[corner]));
   }
   for (Marker& marker : markers) delete_if_empty(marker);
   std::move(markers.begin(), markers.end(), std::back_inserter(all));

@@ -59,6 +59,7 @@ inline const std::vector<Rejection> kOtherRejections{
      "fracture.release_offset: 0.003: must be less"},
     {"surface.influence_domain_adaptation", "surface: {influence_domain_adaptation: 2}",
      "surface.influence_domain_adaptation: 2: must be true or false"},
+    {"surface.shading", "surface: {shading: phong}", "surface.shading: phong: must be flat or smooth"},
     {"surface.hidden_labels", "surface: {hidden_labels: [1, 256]}", "surface.hidden_labels: "},
     {"surface.label_colours",
      "surface: {label_colours: [{label: 1, colour: [0, 0, 0]}, {label: 1, colour: [1, 1, 1]}]}",

@@ -17,6 +17,7 @@ Scene scene() {
     for (const Vec3& p : {Vec3(0, 0, label), Vec3(1, 0, label), Vec3(0, 1, label)})
       surface.positions.push_back(p);
     surface.triangles.push_back({first, first + 1, first + 2});
+    surface.normals.insert(surface.normals.end(), 3, Vec3::UnitZ());
     surface.label.push_back(static_cast<std::uint8_t>(label));
     surface.cut.push_back(static_cast<std::uint8_t>(cut));
   }
@@ -73,6 +74,23 @@ TEST(Markers, OfHiddenLabelsAreDeleted) {
   EXPECT_EQ(heights(array, "skin", 12), Heights{-1});
   EXPECT_EQ(heights(array, "cut_faces", 1), Heights{-1});
   EXPECT_EQ(heights(array, "cut_faces", 12), Heights{-1});
+}
+
+TEST(Markers, OfSmoothShadingAreBrighterWhereNormalsPointUp) {
+  Scene shown = scene();
+  for (std::size_t v = 0; v < 3; ++v) shown.surface.normals[v] = -Vec3::UnitZ();  // of the first triangle
+  SurfaceConfig look;
+  look.shading = Shading::kSmooth;
+  look.label_colours = {{3, {1, 1, 1}}};
+  for (const Marker& marker : to_markers(shown, "tissue", look).markers) {
+    if (marker.ns != "skin" && marker.ns != "cut_faces") continue;
+    ASSERT_EQ(marker.colors.size(), marker.points.size()) << marker.ns << " " << marker.id;
+    for (const auto& colour : marker.colors) {
+      EXPECT_EQ(colour.a, 1.0f);
+      for (const float part : {colour.r, colour.g, colour.b}) EXPECT_TRUE(part > 0.0f && part <= 1.0f);
+    }
+    if (marker.ns == "skin" && marker.id == 0) EXPECT_LT(2.0f * marker.colors[0].r, marker.colors[3].r);
+  }
 }
 
 }  // namespace

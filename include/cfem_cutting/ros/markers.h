@@ -12,10 +12,10 @@ namespace cfem_cutting {
 /// marker of the namespace "skin" ("cut_faces") with the id kFirstLabel + label.
 enum class MarkerId { kSkin = 0, kCutFaces = 1, kBlade = 2, kForce = 3, kFirstLabel = 10 };
 
-/// A scene as markers of one colour each (rviz lights only those): skin, cut faces, blade, contact force.
-/// What there is nothing of is deleted.
+/// A scene as markers: skin, cut faces, blade, contact force. What there is nothing of is deleted. Each has one
+/// colour, which rviz lights; with smooth shading, skin and cut faces have colours that are lit already.
 /// @param frame the tissue frame
-/// @param look colours of labels, and those that are hidden
+/// @param look colours of labels, those that are hidden, and the shading
 visualization_msgs::MarkerArray to_markers(const Scene& scene, const std::string& frame,
                                            const SurfaceConfig& look);
 

@@ -52,8 +52,13 @@ struct LabelColour {
   Vec3 colour = Vec3::Zero();  ///< red, green, blue, 0 to 1
 };
 
+/// How the markers' triangles are shaded: each by its own normal, as rviz lights it, or smoothly by the surface's
+/// normals, in vertex colours.
+enum class Shading { kFlat, kSmooth };
+
 struct SurfaceConfig {
   bool influence_domain_adaptation = true;
+  Shading shading = Shading::kFlat;
   std::vector<int> hidden_labels;          ///< whose skin and cut faces are not drawn
   std::vector<LabelColour> label_colours;  ///< instead of the colours of skin and cut faces
 };
