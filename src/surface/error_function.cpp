@@ -31,7 +31,8 @@ Vec3 go(const Vec3& from, const Vec3& way, const Box& room) {
   return from + part * way;
 }
 
-/// Towards the planes' minimum along allowed directions: along a wall of the room, too, where it is in the way.
+/// Towards the planes' minimum along allowed directions: along a wall of the room, too, where it is in the
+/// way.
 Vec3 slide(Vec3 X, const ErrorFunction& planes, Mat3 allowed, const Box& room) {
   for (int walls = 0; walls < 3; ++walls) {
     const Vec3 way = planes.way_to_minimum(X, kTruncation, allowed);
@@ -63,7 +64,8 @@ Vec3 minimum_on_cut(const Vec3& start, const ErrorFunction& skin, const ErrorFun
   return go(X, in_plane * way_off_walls(X, skin + cut, kCrease, room), room);
 }
 
-Vec3 minimum_on_skin(const Vec3& start, const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
+Vec3 minimum_on_skin(const Vec3& start, const ErrorFunction& skin, const ErrorFunction& cut,
+                     const Box& room) {
   const Vec3 on_skin = clamp(start + skin.way_to_minimum(start, kCrease), room);
   const Vec3 X = go(on_skin, cut.way_to_minimum(on_skin, kTruncation, skin.free_directions(kCrease)), room);
   return clamp(X + way_off_walls(X, skin + cut, kCrease, room), room);

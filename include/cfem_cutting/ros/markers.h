@@ -12,8 +12,8 @@ namespace cfem_cutting {
 /// marker of the namespace "skin" ("cut_faces") with the id kFirstLabel + label.
 enum class MarkerId { kSkin = 0, kCutFaces = 1, kBlade = 2, kForce = 3, kFirstLabel = 10 };
 
-/// A scene as markers: skin, cut faces, blade, contact force. What there is nothing of is deleted. Each has one
-/// colour, which rviz lights; with smooth shading, skin and cut faces have colours that are lit already.
+/// A scene as markers: skin, cut faces, blade, contact force. What there is nothing of is deleted. Each has
+/// one colour, which rviz lights; with smooth shading, skin and cut faces have colours that are lit already.
 /// @param frame the tissue frame
 /// @param look colours of labels, those that are hidden, and the shading
 visualization_msgs::MarkerArray to_markers(const Scene& scene, const std::string& frame,

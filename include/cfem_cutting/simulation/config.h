@@ -52,8 +52,8 @@ struct LabelColour {
   Vec3 colour = Vec3::Zero();  ///< red, green, blue, 0 to 1
 };
 
-/// How the markers' triangles are shaded: each by its own normal, as rviz lights it, or smoothly by the surface's
-/// normals, in vertex colours.
+/// How the markers' triangles are shaded: each by its own normal, as rviz lights it, or smoothly by the
+/// surface's normals, in vertex colours.
 enum class Shading { kFlat, kSmooth };
 
 struct SurfaceConfig {
