@@ -91,13 +91,21 @@ bool CutSurface::covered(const Vec3& X) const {
   return is_covered;
 }
 
-double CutSurface::distance(const Vec3& X, double radius) const {
-  double nearest = std::numeric_limits<double>::infinity();
+std::optional<Vec3> CutSurface::nearest(const Vec3& X, double radius) const {
+  std::optional<Vec3> nearest;
+  double distance = radius;
   for_near(X, radius, [&](const SweptTriangle& t) {
-    const auto& [a, b, c] = t.corners;
-    nearest = std::min(nearest, point_triangle_distance(X, a, b, c));
+    const Vec3 on_triangle = nearest_on_triangle(X, t.corners[0], t.corners[1], t.corners[2]);
+    if ((on_triangle - X).norm() > distance) return;
+    distance = (on_triangle - X).norm();
+    nearest = on_triangle;
   });
-  return nearest <= radius ? nearest : std::numeric_limits<double>::infinity();
+  return nearest;
+}
+
+double CutSurface::distance(const Vec3& X, double radius) const {
+  const std::optional<Vec3> at = nearest(X, radius);
+  return at ? (*at - X).norm() : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace cfem_cutting

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace cfem_cutting {
 namespace {
@@ -13,11 +14,8 @@ double position_on_line(const Vec3& a, const Vec3& b, const Vec3& query) {
   return (query - a).dot(ab) / ab.squaredNorm();
 }
 
-double point_segment_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const double length_squared = (b - a).squaredNorm();
-  if (length_squared == 0.0) return (p - a).norm();
-  const double t = std::clamp((p - a).dot(b - a) / length_squared, 0.0, 1.0);
-  return (p - a - t * (b - a)).norm();
+Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  return a == b ? a : Vec3(a + std::clamp(position_on_line(a, b, p), 0.0, 1.0) * (b - a));
 }
 
 PolylineProjection project_on_segment(const Polyline& polyline, int segment, const Vec3& query) {
@@ -66,16 +64,23 @@ Polyline refine(const Polyline& polyline, double max_length) {
   return refined;
 }
 
-double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double to_edges = std::min(
-      {point_segment_distance(p, a, b), point_segment_distance(p, b, c), point_segment_distance(p, c, a)});
+Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = (b - a).cross(c - a);
-  const double area = normal.norm();
-  if (area == 0.0) return to_edges;
   const bool above_triangle = (b - a).cross(p - a).dot(normal) >= 0.0 &&
                               (c - b).cross(p - b).dot(normal) >= 0.0 &&
                               (a - c).cross(p - c).dot(normal) >= 0.0;
-  return above_triangle ? std::abs((p - a).dot(normal)) / area : to_edges;
+  if (normal.squaredNorm() > 0.0 && above_triangle)
+    return p - (p - a).dot(normal) / normal.squaredNorm() * normal;
+  Vec3 nearest = a;
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+    const Vec3 on_edge = nearest_on_segment(p, from, to);
+    if ((p - on_edge).squaredNorm() < (p - nearest).squaredNorm()) nearest = on_edge;
+  }
+  return nearest;
+}
+
+double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (p - nearest_on_triangle(p, a, b, c)).norm();
 }
 
 }  // namespace cfem_cutting

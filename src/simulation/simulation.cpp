@@ -64,7 +64,11 @@ FrontFidelity Simulation::front_fidelity() const {
 Distances Simulation::cut_face_distances() const {
   const double voxel = s_->volume.lattice().spacing.maxCoeff();
   Distances distances;
-  const auto add = [&](const Vec3& X) { distances.add(std::min(voxel, s_->cut_surface.distance(X, voxel))); };
+  CutSurface uncut(voxel);  // swept since the last fracture
+  uncut.add(s_->volume, SweptTrail(s_->trail).take());
+  const auto add = [&](const Vec3& X) {
+    distances.add(std::min({voxel, s_->cut_surface.distance(X, voxel), uncut.distance(X, voxel)}));
+  };
   for (std::size_t t = 0; t < surface().triangles.size(); ++t) {
     if (!surface().cut[t]) continue;
     const auto& [i, j, k] = surface().triangles[t];

@@ -60,7 +60,9 @@ Simulation::State::State(const SimulationConfig& config_in, VoxelVolume uncut, c
               blade.friction),
       trail(0.125 * volume.lattice().spacing.minCoeff()),
       cut_surface(volume.lattice().spacing.maxCoeff()),
-      extractor(volume) {
+      extractor(volume, [this](const Vec3& X) {
+        return cut_surface.nearest(X, volume.lattice().spacing.maxCoeff());
+      }) {
   find_held();
   extractor.extract({});
   warnings = find_warnings(volume, grips, config.probes);

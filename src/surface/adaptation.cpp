@@ -41,6 +41,16 @@ void retract(Contour& contour, int cell, int group) {
   if (X) X = X->cwiseMax(room.min()).cwiseMin(room.max());
 }
 
+void end_on_cut(Contour& contour, const SurfaceExtractor::NearestOnCut& nearest) {
+  for (DualCell& cell : contour.cells()) {
+    if (cell.groups.size() != 1 || !cell.groups[0].cut_end) continue;  // several may not pass each other
+    SheetGroup& group = cell.groups[0];
+    if (group.adapted || group.frozen) continue;
+    const std::optional<Vec3> X = nearest(group.minimum);
+    if (X) group.frozen = minimum_towards(*X, contour.volume(), cell, group);
+  }
+}
+
 void freeze_cut_ends(Contour& contour) {
   for (DualCell& cell : contour.cells())
     for (SheetGroup& group : cell.groups)

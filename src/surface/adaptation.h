@@ -12,6 +12,9 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves);
 /// Draws a virtual intersection point back into its cell.
 void retract(Contour& contour, int cell, int group);
 
+/// Puts ends of cuts that have no virtual intersection point on the cut.
+void end_on_cut(Contour& contour, const SurfaceExtractor::NearestOnCut& nearest);
+
 /// Keeps the virtual intersection points at cuts.
 void freeze_cut_ends(Contour& contour);
 

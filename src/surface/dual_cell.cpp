@@ -82,17 +82,28 @@ void group_sheets(DualCell& cell) {
   for (SheetGroup& group : cell.groups) describe_group(cell, group);
 }
 
-/// A severed link counts once. Of several groups in a cell, minima may lie beyond each other; means don't.
-Vec3 place(const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {
+struct Planes {
   ErrorFunction skin, cut;
+};
+
+/// A severed link counts once.
+Planes planes_of(const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {
+  Planes planes;
   for (LocalSide side = 0; side < kLocalSides; ++side) {
     if (!(group.sides >> side & 1)) continue;
     const bool severed = cell.has_side(across(side));
     if (severed && across(side) < side) continue;
-    (severed ? cut : skin).add(volume.crossing(cell.voxel[side / 3], direction_from(side / 3, side % 3)));
+    (severed ? planes.cut : planes.skin)
+        .add(volume.crossing(cell.voxel[side / 3], direction_from(side / 3, side % 3)));
   }
+  return planes;
+}
+
+/// Of several groups in a cell, minima may lie beyond each other; means don't.
+Vec3 place(const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {
+  const Planes planes = planes_of(volume, cell, group);
   const Box room = room_in_cell(volume.lattice(), cell.index);
-  return cell.groups.size() > 1 ? mean(skin, cut, room) : minimum(skin, cut, room);
+  return (cell.groups.size() > 1 ? mean : minimum)(planes.skin, planes.cut, room);
 }
 
 }  // namespace
@@ -112,6 +123,11 @@ LocalSide DualCell::arc_end(LocalSide side, int normal_axis) const {
     axis = 3 - axis - normal_axis;
   }
   return 3 * corner + axis;
+}
+
+Vec3 minimum_towards(const Vec3& X, const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {
+  const ErrorFunction skin = planes_of(volume, cell, group).skin;
+  return along(skin, group.minimum, X, room_in_cell(volume.lattice(), cell.index));
 }
 
 DualCell contour_cell(const VoxelVolume& volume, const Vec3i& index) {

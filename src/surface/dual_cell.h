@@ -64,6 +64,9 @@ struct DualCell {
   LocalSide arc_end(LocalSide side, int normal_axis) const;
 };
 
+/// A group's minimum moved towards a point: within the cell, and along the skin if it has skin.
+Vec3 minimum_towards(const Vec3& X, const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group);
+
 /// Sheets, groups and the minima of their error functions.
 DualCell contour_cell(const VoxelVolume& volume, const Vec3i& index);
 

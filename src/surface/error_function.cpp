@@ -122,6 +122,11 @@ Mat3 ErrorFunction::free_directions(double truncation) const {
   return projector;
 }
 
+Vec3 along(const ErrorFunction& skin, const Vec3& from, const Vec3& to, const Box& room) {
+  const Vec3 way = to - from;
+  return go(from, skin.empty() ? way : Vec3(skin.free_directions(kCrease) * way), room);
+}
+
 Vec3 mean(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
   return clamp((skin.sum() + cut.sum()) / (skin.count() + cut.count()), room);
 }

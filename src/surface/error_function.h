@@ -43,6 +43,9 @@ class ErrorFunction {
 /// may be empty, not both.
 Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room);
 
+/// From one point in a box towards another as far as the box allows, along skin planes, if there are some.
+Vec3 along(const ErrorFunction& skin, const Vec3& from, const Vec3& to, const Box& room);
+
 /// The mean of the crossings, as far as a box allows.
 Vec3 mean(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room);
 

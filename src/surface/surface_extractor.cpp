@@ -5,9 +5,10 @@
 namespace cfem_cutting {
 
 struct SurfaceExtractor::State {
-  explicit State(const VoxelVolume& volume) : contour(volume) {}
+  State(const VoxelVolume& volume, NearestOnCut nearest) : contour(volume), on_cut(std::move(nearest)) {}
 
   Contour contour;
+  NearestOnCut on_cut;
   Mesher mesher;
   FrontTrace trace;
   bool freeze_next = false;
@@ -28,7 +29,8 @@ void unfold(Contour& contour, Mesher& mesher) {
 
 }  // namespace
 
-SurfaceExtractor::SurfaceExtractor(const VoxelVolume& volume) : s_(std::make_unique<State>(volume)) {}
+SurfaceExtractor::SurfaceExtractor(const VoxelVolume& volume, NearestOnCut on_cut)
+    : s_(std::make_unique<State>(volume, std::move(on_cut))) {}
 
 SurfaceExtractor::~SurfaceExtractor() = default;
 
@@ -38,6 +40,7 @@ const TissueSurface& SurfaceExtractor::extract(const FrontTrace& trace, bool ada
   const bool changed = s_->contour.update();
   if (changed || trace != s_->trace) {
     adapt(s_->contour, trace, adapts);
+    if (s_->freeze_next && adapts && s_->on_cut) end_on_cut(s_->contour, s_->on_cut);
     if (changed) s_->mesher.build(s_->contour);
     s_->mesher.place(s_->contour, changed);
     unfold(s_->contour, s_->mesher);

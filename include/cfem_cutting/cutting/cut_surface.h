@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -17,6 +18,9 @@ class CutSurface {
   /// Adds triangles and returns the area (m²) that is inside tissue and new: old is what lies over or under
   /// the surface so far, at most a quarter of a cell away. Triangles that are all old are not kept.
   double add(const VoxelVolume& volume, const std::vector<SweptTriangle>& triangles);
+
+  /// The surface's point nearest to X, if within `radius` ≤ cell, m.
+  std::optional<Vec3> nearest(const Vec3& X, double radius) const;
 
   /// Distance to the surface if within `radius` ≤ cell, else infinity, m.
   double distance(const Vec3& X, double radius) const;

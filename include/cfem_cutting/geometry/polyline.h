@@ -19,6 +19,9 @@ PolylineProjection project(const Polyline& polyline, const Vec3& query);
 /// Splits each segment evenly so that none is longer than max_length (m); keeps all given points.
 Polyline refine(const Polyline& polyline, double max_length);
 
+/// The point of triangle abc, which may be flat, that is nearest to p.
+Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
 /// Distance from a point to triangle abc, m.
 double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 

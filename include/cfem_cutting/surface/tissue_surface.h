@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cfem_cutting/elasticity/composite_mesh.h"
@@ -54,8 +56,13 @@ using FrontTrace = std::vector<Trace>;
 /// Manifold dual contouring (after Ju et al. 2002; Schaefer, Ju and Warren 2007).
 class SurfaceExtractor {
  public:
+  /// A point's nearest one on what the blade has cut, m; nothing if that is farther than a voxel.
+  using NearestOnCut = std::function<std::optional<Vec3>(const Vec3&)>;
+
   /// @param volume must outlive the extractor
-  explicit SurfaceExtractor(const VoxelVolume& volume);
+  /// @param on_cut where cuts end beside the front, which is behind the blade's heel and tip; empty: anywhere in
+  /// their cells
+  explicit SurfaceExtractor(const VoxelVolume& volume, NearestOnCut on_cut = {});
   ~SurfaceExtractor();
 
   /// Contours again around links severed since the last call, and puts the vertices of the cells that the
@@ -66,7 +73,7 @@ class SurfaceExtractor {
 
   /// Keeps the present virtual intersection points of sheets in which a cut ends when the front moves on, and
   /// those that the next `extract` makes: a cut ends where the blade was, until the cut goes on through the
-  /// same sheets.
+  /// same sheets. New ends of cuts beside the front go to the cut.
   void freeze();
 
   const TissueSurface& surface() const;
