@@ -49,6 +49,8 @@ TEST(PointTriangleDistance, KnownRegions) {
   EXPECT_DOUBLE_EQ(point_triangle_distance({0.5, -2, 0}, a, b, c), 2.0);
   EXPECT_DOUBLE_EQ(point_triangle_distance({1, 1, 0}, a, b, c), std::sqrt(0.5));
   EXPECT_DOUBLE_EQ(point_triangle_distance({0, 3, 4}, a, a, a), 5.0);
+  EXPECT_LT((nearest_on_triangle({0.2, 0.2, 0.7}, a, b, c) - Vec3(0.2, 0.2, 0)).norm(), 1e-15);
+  EXPECT_LT((nearest_on_triangle({1, 1, 3}, a, b, c) - Vec3(0.5, 0.5, 0)).norm(), 1e-15);
 }
 
 TEST(PointTriangleDistance, AgreesWithSampling) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "cfem_cutting/geometry/self_crossings.h"
 #include "simulation/cut_box.h"
@@ -95,13 +96,16 @@ Cut find_cut(const std::string& name, double voxel) {
 
 INSTANTIATE_TEST_SUITE_P(boxes, Fidelity, testing::ValuesIn(cuts()));
 
-TEST(Fidelity, level_cut_faces_lie_on_the_swept_surface) {
-  const Cut cut = find_cut("level", 0.004);
-  Simulation simulation = simulation_of(cut, config_of(cut));
-  follow(simulation, cut);
-  const Distances distances = simulation.cut_face_distances();
-  EXPECT_GT(distances.count, 100);
-  EXPECT_LT(distances.largest, 0.1 * cut.voxel);
+TEST(Fidelity, cut_faces_lie_on_the_swept_surface) {
+  for (const auto& [name, voxel] : {std::pair("level", 0.002), std::pair("level", 0.004),
+                                    std::pair("level", 0.008), std::pair("tilted", 0.004)}) {
+    const Cut cut = find_cut(name, voxel);
+    Simulation simulation = simulation_of(cut, config_of(cut));
+    follow(simulation, cut);
+    const Distances distances = simulation.cut_face_distances();
+    EXPECT_GT(distances.count, 100) << name << " " << voxel;
+    EXPECT_LT(distances.largest, 0.1 * cut.voxel) << name << " " << voxel;
+  }
 }
 
 TEST(Fidelity, without_adaptation_crease_and_cut_end_are_off_the_edge) {

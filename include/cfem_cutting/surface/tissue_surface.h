@@ -60,8 +60,8 @@ class SurfaceExtractor {
   using NearestOnCut = std::function<std::optional<Vec3>(const Vec3&)>;
 
   /// @param volume must outlive the extractor
-  /// @param on_cut where cuts end beside the front, which is behind the blade's heel and tip; empty: anywhere in
-  /// their cells
+  /// @param on_cut where cuts end beside the front, which is behind the blade's heel and tip; empty: anywhere
+  /// in their cells
   explicit SurfaceExtractor(const VoxelVolume& volume, NearestOnCut on_cut = {});
   ~SurfaceExtractor();
 
