@@ -83,7 +83,7 @@ def save(path, picture):
 LIVER = Camera(focus=(0.172, 0.036, 0.105), away=(0.58, -0.8, 0.15), distance=0.085, size=(400, 320))
 WIDTH = (266, 230)
 MODELS = {  # places of the units shown, camera
-    "bunny": ((0.25, 0.75, 1.0), Camera((0.016, 0.012, -0.002), (0.4, 0.8, 1.0), 0.11, WIDTH, up=(0, 1, 0))),
+    "bunny": ((0.25, 0.75, 1.0), Camera((0.016, 0.008, 0.0), (0.3, 0.6, 1.0), 0.075, WIDTH, up=(0, 1, 0))),
     "bread": ((0.18, 0.34, 0.5), Camera((0.045, 0.04, 0.045), (-0.35, -1.0, 0.65), 0.19, WIDTH)),
     "steak": ((0.25, 0.55, 1.0), Camera((0.08, 0.035, 0.012), (-0.3, -1.0, 0.8), 0.125, WIDTH)),
 }
@@ -93,7 +93,7 @@ def close_up(run, surface):
     """From above the cut, with the edge drawn in."""
     blade = run.blade(surface)
     focus = blade.edge.mean(axis=0)
-    return run.tile(surface, Camera(focus, blade.spine[0] - blade.edge[0], 0.05, (150, 180), trace=True))
+    return run.tile(surface, Camera(focus, blade.spine[0] - blade.edge[0], 0.038, (180, 216), trace=True))
 
 
 def liver(results):
