@@ -131,6 +131,19 @@ void add_section(Fields<Target>& fields, const std::string& section, const Field
 /// "; did you mean …?" for a key that resembles a known one, else empty.
 std::string suggestion(const std::string& key, const std::vector<std::string>& known);
 
+/// Of the fields and of the sections that they are in.
+template <typename Target>
+std::vector<std::string> keys_of(const Fields<Target>& fields) {
+  std::vector<std::string> keys;
+  for (const Field<Target>& field : fields) {
+    const std::string& key = field.doc.key;
+    for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', dot + 1))
+      keys.push_back(key.substr(0, dot));
+    keys.push_back(key);
+  }
+  return keys;
+}
+
 template <typename Target>
 void read_entries(const Fields<Target>& fields, const YAML::Node& node, const std::string& prefix,
                   const std::string& section, Target& target) {
@@ -139,11 +152,9 @@ void read_entries(const Fields<Target>& fields, const YAML::Node& node, const st
     const std::string path = section + (entry.first.IsScalar() ? entry.first.Scalar() : "?");
     const Value value{prefix + path, entry.second};
     if (!seen.insert(path).second) throw ConfigError(value.key + ": is given twice");
-    std::vector<std::string> known;
     const Field<Target>* found = nullptr;
     bool is_section = false;
     for (const Field<Target>& field : fields) {
-      known.push_back(field.doc.key);
       if (field.doc.key == path) found = &field;
       is_section |= field.doc.key.compare(0, path.size() + 1, path + ".") == 0;
     }
@@ -153,7 +164,7 @@ void read_entries(const Fields<Target>& fields, const YAML::Node& node, const st
       if (!value.node.IsMap() && !value.node.IsNull()) refuse(value, "a mapping");
       read_entries(fields, value.node, prefix, path + ".", target);
     } else {
-      throw ConfigError(value.key + ": unknown key" + suggestion(path, known));
+      throw ConfigError(value.key + ": unknown key" + suggestion(path, keys_of(fields)));
     }
   }
 }

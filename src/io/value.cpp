@@ -11,9 +11,20 @@ namespace {
 
 constexpr std::size_t kLongestValueShown = 80;
 
+/// A copy that is written in one line.
+YAML::Node in_flow(const YAML::Node& node) {
+  YAML::Node copy = YAML::Clone(node);
+  copy.SetStyle(YAML::EmitterStyle::Flow);
+  if (node.IsSequence())
+    for (std::size_t i = 0; i < node.size(); ++i) copy[i] = in_flow(node[i]);
+  if (node.IsMap())
+    for (const auto& entry : node) copy[entry.first] = in_flow(entry.second);
+  return copy;
+}
+
 std::string shown(const YAML::Node& node) {
   YAML::Emitter emitter;
-  emitter << YAML::Flow << node;
+  if (node.IsDefined()) emitter << in_flow(node);
   std::string text = node.IsDefined() ? emitter.c_str() : "nothing";
   for (char& c : text)
     if (c == '\n' || c == '\r') c = ' ';

@@ -5,12 +5,19 @@
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <string>
 
 #include "cfem_cutting/geometry/errors.h"
 #include "cfem_cutting/ros/cutting_node.h"
 
 namespace cfem_cutting {
 namespace {
+
+constexpr const char* kHelp =
+    "Cuts tissue with the tool poses of a topic, and publishes surface, fractures and forces.\n"
+    "Usage: rosrun cfem_cutting cutting_node [NAME:=VALUE ...]\n"
+    "Settings are private parameters: doc/parameters.md and `replay --list-parameters` list them, and\n"
+    "roslaunch cfem_cutting cutting.launch config:=FILE.yaml loads them.\n";
 
 constexpr double kStepPatience = 1.2;  // s; with what follows the node is gone within two
 constexpr std::size_t kThreads = 3;    // poses and tf go on while a service waits for the simulation
@@ -57,6 +64,8 @@ void run_until_stopped() {
 }  // namespace
 
 int run_cutting_node(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (std::string(argv[i]) == "--help" || std::string(argv[i]) == "-h") return std::cout << kHelp, 0;
   ros::init(argc, argv, "cutting_node", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);

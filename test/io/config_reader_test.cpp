@@ -36,8 +36,15 @@ TEST(ConfigReader, EveryKeyHasARejectionTest) {
 TEST(ConfigReader, NamesUnknownKeysAndTheNearestKnownOne) {
   EXPECT_EQ(refusal("tissue: {scal: 1}"), "tissue.scal: unknown key; did you mean tissue.scale?");
   EXPECT_EQ(refusal("time_step: 1"), "time_step: unknown key; did you mean solver.time_step?");
+  EXPECT_EQ(refusal("tisue: {scale: 1}"), "tisue: unknown key; did you mean tissue?");
   EXPECT_EQ(refusal("nonsense: 1"), "nonsense: unknown key");
   EXPECT_EQ(refusal("tissue: {scale: 1, scale: 2}"), "tissue.scale: is given twice");
+}
+
+TEST(ConfigReader, WritesBadListsInOneLine) {
+  EXPECT_EQ(refusal("blade:\n  edge:\n    - [0, 0, 0]\n    -\n      - 0\n      - x\n"),
+            "blade.edge: [[0, 0, 0], [0, x]]: must be a list of at least two points [x, y, z], no two in a "
+            "row equal");
 }
 
 TEST(ConfigReader, WantsExactlyOneEdge) {
