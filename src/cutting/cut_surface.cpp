@@ -92,15 +92,16 @@ bool CutSurface::covered(const Vec3& X) const {
 }
 
 std::optional<Vec3> CutSurface::nearest(const Vec3& X, double radius) const {
-  std::optional<Vec3> nearest;
-  double distance = radius;
+  std::optional<Vec3> found;
+  double least = radius;
   for_near(X, radius, [&](const SweptTriangle& t) {
     const Vec3 on_triangle = nearest_on_triangle(X, t.corners[0], t.corners[1], t.corners[2]);
-    if ((on_triangle - X).norm() > distance) return;
-    distance = (on_triangle - X).norm();
-    nearest = on_triangle;
+    const double distance = (on_triangle - X).norm();
+    if (!(distance <= least)) return;
+    least = distance;
+    found = on_triangle;
   });
-  return nearest;
+  return found;
 }
 
 double CutSurface::distance(const Vec3& X, double radius) const {

@@ -21,7 +21,7 @@ NodeField from_quads(const SingleField& field) { return field.topRows<3>().cast<
 
 void ElementProduct::arrange(ElementsPointer elements) {
   elements_ = std::move(elements);
-  single_.stiffness = PackedStiffness<float>(*elements_);
+  single_.stiffness = PackedStiffness<float>(*elements_);  // every solve needs it, the other hardly any
   single_.stiffness_fits = true;
   double_.stiffness_fits = false;
   rotate(std::vector<Mat3>(elements_->set.size(), Mat3::Identity()));

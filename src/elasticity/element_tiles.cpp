@@ -1,6 +1,7 @@
 #include "element_tiles.h"
 
 #include <algorithm>
+#include <cassert>
 #include <unordered_map>
 
 namespace cfem_cutting {
@@ -75,11 +76,15 @@ void ElementTiles::add_nodes(const ElementSet& elements, const NodeCorners& at) 
   const std::vector<std::uint16_t> slots = slots_of_corners(elements);
   std::vector<std::vector<std::pair<int, std::uint16_t>>> on_border(tiles_.size());  // node, slot
   const auto tile_of = [&](int i) { return at.corners[i] / 8 / tile_size_; };
+  std::vector<int> ends(tiles_.size(), 0);
+  int last_tile = 0;
   for (int node = 0; node < elements.node_count; ++node) {
     const int first = at.first[node], end = at.first[node + 1];
+    assert(first < end && tile_of(first) >= last_tile);  // numbered by their first element
+    last_tile = tile_of(first);
     if (tile_of(first) == tile_of(end - 1)) {
       for (int i = first; i < end; ++i) inner_sums_.add(node, i == first, slots[at.corners[i]]);
-      tiles_[tile_of(first)].end_inner = static_cast<int>(inner_sums_.nodes.size());
+      ends[last_tile] = static_cast<int>(inner_sums_.nodes.size());
     } else {
       for (int i = first; i < end; ++i) on_border[tile_of(i)].emplace_back(node, slots[at.corners[i]]);
     }
@@ -88,7 +93,7 @@ void ElementTiles::add_nodes(const ElementSet& elements, const NodeCorners& at) 
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
     Tile& tile = tiles_[t];
     tile.inner = inner;
-    inner = tile.end_inner = std::max(inner, tile.end_inner);
+    inner = tile.end_inner = std::max(inner, ends[t]);
     tile.border = static_cast<int>(border_sums_.nodes.size());
     int last = -1;
     for (const auto& [node, slot] : on_border[t]) {

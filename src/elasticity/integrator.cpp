@@ -2,6 +2,7 @@
 
 #include "equilibrium.h"
 #include "node_loops.h"
+#include "subnormals.h"
 #include "workspace.h"
 
 namespace cfem_cutting {
@@ -13,6 +14,7 @@ Integrator::~Integrator() = default;
 
 SolveReport Integrator::step(const ElasticModel& model, ElasticState& state, double dt, const Vec3& gravity,
                              const HeldNodes& held, const std::vector<PointConstraint>& constraints) {
+  const FlushSubnormals flush;
   ThreadPool& pool = workspace_->pool;
   ElasticResponse& elastic = workspace_->elastic;
   model.respond(state.x, pool, elastic);
@@ -52,6 +54,7 @@ SolveReport Integrator::step(const ElasticModel& model, ElasticState& state, dou
 SolveReport Integrator::equilibrate(const ElasticModel& model, NodeField& x, const Vec3& gravity,
                                     const HeldNodes& held, const std::vector<PointConstraint>& constraints,
                                     int max_newton) {
+  const FlushSubnormals flush;
   Equilibrium equilibrium(model, x, gravity, held, constraints);
   return equilibrium.solve_newton(workspace_->multigrid, workspace_->solver, options_, x, max_newton);
 }

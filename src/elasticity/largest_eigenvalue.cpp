@@ -10,7 +10,21 @@
 namespace cfem_cutting {
 namespace {
 
+/// Of conjugate gradients. A whole level has more to look at, and is looked at once.
+constexpr int kStepsAnew = 20, kStepsNear = 10;
+
 std::uint64_t mix(std::uint64_t hash, std::uint64_t more) { return (hash ^ more) * 0x9E3779B97F4A7C15u; }
+
+std::uint64_t mix_diagonal(const ElementMatrix& K) {
+  std::uint64_t hash = 0;
+  for (int i = 0; i < K.rows(); ++i) {
+    const double entry = K(i, i);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &entry, sizeof bits);
+    hash = mix(hash, bits);
+  }
+  return hash;
+}
 
 /// Nodes that are not held, of elements.
 std::vector<char> free_nodes(const ElementSet& set, const std::vector<char>& held,
@@ -53,11 +67,11 @@ bool LargestEigenvalue::before(const Print& a, const Print& b) {
 std::vector<LargestEigenvalue::Print> LargestEigenvalue::prints_of(const LevelSystem& level) {
   const ElementSet& set = level.product().elements().set;
   const NodeCorners& at = level.product().elements().corners;
-  const std::vector<double> traces = set.traces();
   std::vector<Print> prints(set.size());
+  std::uint64_t matrix = 0;
   for (int e = 0; e < set.size(); ++e) {
-    std::uint64_t look = 0;
-    std::memcpy(&look, &traces[e], sizeof look);
+    if (e == 0 || set.stiffness[e] != set.stiffness[e - 1]) matrix = mix_diagonal(*set.stiffness[e]);
+    std::uint64_t look = matrix;
     for (int node : set.nodes[e])
       look = mix(look, 2 * (at.first[node + 1] - at.first[node]) + (level.held()[node] ? 1 : 0));
     prints[e] = {morton_place(set.block[e]), look, e};
@@ -73,7 +87,7 @@ double LargestEigenvalue::largest_near(const std::vector<Print>& changed, const 
   Part part(whole, free_nodes(whole.set, level.held(), elements));
   LevelSystem system(level.product().pool());
   system.arrange(std::make_shared<TiledElements>(std::move(part.set)), std::move(part.held));
-  return system.largest_at_rest();
+  return system.largest_at_rest(kStepsNear);
 }
 
 double LargestEigenvalue::update(LevelSystem& level) {
@@ -82,7 +96,7 @@ double LargestEigenvalue::update(LevelSystem& level) {
   std::set_difference(now.begin(), now.end(), known_.begin(), known_.end(), std::back_inserter(changed),
                       before);
   if (changed.size() > now.size() / 2) {
-    largest_ = level.largest_at_rest();
+    largest_ = level.largest_at_rest(kStepsAnew);
   } else if (!changed.empty()) {
     largest_ = std::max(largest_, largest_near(changed, level));
   }

@@ -8,18 +8,20 @@
 namespace cfem_cutting {
 
 /// The largest eigenvalue of a level's M⁻¹ A at rest, kept from mesh to mesh. After a cut it is looked for
-/// only at the nodes of elements that changed: no eigenvalue of a principal part of M⁻¹ A is larger than the
-/// whole's.
+/// only at the nodes of elements that changed: it belongs to a few nodes mostly (of slivers, of corners), and
+/// either they are among those, or it was known. An estimate: see LevelSystem's safety, and the solver's way
+/// out when it is too low.
 class LargestEigenvalue {
  public:
   /// @param level right after LevelSystem::arrange
   double update(LevelSystem& level);
 
  private:
-  /// An element as its neighbours see it: elements with equal ones are alike and lie alike.
+  /// An element as its neighbours see it. Equal ones mean that nothing changed.
   struct Print {
     std::uint64_t place;  // Morton's
-    std::uint64_t look;   // of its matrix, and of the nodes: how many elements meet there, and whether held
+    std::uint64_t
+        look;  // of its matrix's diagonal, and of the nodes: how many elements meet there, whether held
     int element;
   };
   static std::vector<Print> prints_of(const LevelSystem& level);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -35,7 +36,9 @@ SingleField noise(int columns) {
 }  // namespace
 
 void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
+  assert(elements->set.node_count > 0);
   held_ = std::move(held);
+  largest_ = 0.0;
   node_diagonal_ = Eigen::VectorXf::Zero(elements->set.node_count);
   stiffness_factor_ = 1.0f;
   constraints_.clear();
@@ -44,14 +47,16 @@ void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
   mean_at_rest_ = std::accumulate(traces.begin(), traces.end(), 0.0) / (3.0 * held_.size());
 }
 
-double LevelSystem::largest_at_rest() {
+double LevelSystem::largest_at_rest(int steps) {
   invert_blocks();
-  return largest_eigenvalue();
+  return largest_eigenvalue(steps);
 }
 
 void LevelSystem::expect_largest(double eigenvalue) { largest_ = kSafety * eigenvalue; }
 
-void LevelSystem::estimate_largest() { largest_ = std::max(largest_, kSafety * largest_eigenvalue()); }
+void LevelSystem::estimate_largest() {
+  largest_ = std::max(largest_, kSafety * largest_eigenvalue(kLanczosSteps));
+}
 
 void LevelSystem::set(std::vector<Mat3>&& rotations, Eigen::VectorXf node_diagonal, float stiffness_factor,
                       std::vector<ConstraintRow> constraints) {
@@ -65,17 +70,17 @@ void LevelSystem::set(std::vector<Mat3>&& rotations, Eigen::VectorXf node_diagon
 
 /// Of M⁻¹ A, by the tridiagonal matrix of conjugate gradients (Saad 2003, section 6.7.3). Single sliver nodes
 /// can have the largest one, which a power iteration finds too late.
-double LevelSystem::largest_eigenvalue() const {
+double LevelSystem::largest_eigenvalue(int max_steps) const {
   SingleField r = noise(static_cast<int>(held_.size())), z, p, Ap;
   for (std::size_t n = 0; n < held_.size(); ++n)
     if (held_[n]) r.col(static_cast<Eigen::Index>(n)).setZero();
   scale(r, 1.0f, z);
   p = z;
   double rz = r.cwiseProduct(z).sum(), ratio = 0.0;
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(kLanczosSteps);
-  Eigen::VectorXd beside = Eigen::VectorXd::Zero(kLanczosSteps - 1);
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(max_steps);
+  Eigen::VectorXd beside = Eigen::VectorXd::Zero(max_steps - 1);
   int steps = 0;
-  for (double length = 1.0; steps < kLanczosSteps && rz > 0.0; ++steps) {
+  for (double length = 1.0; steps < max_steps && rz > 0.0; ++steps) {
     apply(p, Ap);
     const double curvature = p.cwiseProduct(Ap).sum();
     if (!(curvature > 0.0)) break;
@@ -87,7 +92,7 @@ double LevelSystem::largest_eigenvalue() const {
     const double next_rz = r.cwiseProduct(z).sum();
     ratio = next_rz / rz;
     rz = next_rz;
-    if (steps + 1 < kLanczosSteps) beside[steps] = std::sqrt(std::max(ratio, 0.0)) / length;
+    if (steps + 1 < max_steps) beside[steps] = std::sqrt(std::max(ratio, 0.0)) / length;
     p = z + static_cast<float>(ratio) * p;
   }
   if (steps == 0) return 1.0;

@@ -35,8 +35,8 @@ class LevelSystem {
   const Eigen::VectorXf& node_diagonal() const { return node_diagonal_; }
   const std::vector<ConstraintRow>& constraints() const { return constraints_; }
 
-  /// An estimate of M⁻¹ A's largest eigenvalue, right after `arrange`.
-  double largest_at_rest();
+  /// An estimate of M⁻¹ A's largest eigenvalue, right after `arrange`, by some steps of conjugate gradients.
+  double largest_at_rest(int steps);
   void expect_largest(double eigenvalue);
 
   /// Estimates the largest eigenvalue anew, for the rotations as they are.
@@ -77,13 +77,13 @@ class LevelSystem {
   void add_scaled_to_nodes(const ConstraintRow& row, float force, SingleField& y) const;
   void prepare_constraints();
   void invert_blocks();
-  double largest_eigenvalue() const;
+  double largest_eigenvalue(int max_steps) const;
 
   ElementProduct product_;
   Smoothing smoothing_{1, 0.1};
   std::vector<char> held_;
   double mean_at_rest_ = 0.0;  // N/m, of a node's diagonal in Σ K
-  double largest_ = 1.0;       // of M⁻¹ A's eigenvalues, at rest or adapted
+  double largest_ = 0.0;       // of M⁻¹ A's eigenvalues, at rest or adapted; 0: not known yet
   Eigen::VectorXf node_diagonal_;
   float stiffness_factor_ = 1.0f;
   std::vector<ConstraintRow> constraints_;

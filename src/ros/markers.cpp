@@ -77,7 +77,9 @@ void add_triangles(const DeformedSurface& surface, bool cut, const Marker& other
     Marker& marker = markers[place];
     for (int corner : corners) marker.points.push_back(to_point(p[corner]));
     if (look.shading == Shading::kFlat) continue;
-    for (int corner : corners) marker.colors.push_back(shade(marker.color, surface.normals[corner]));
+    const Vec3 normal = (p[corners[1]] - p[corners[0]]).cross(p[corners[2]] - p[corners[0]]).normalized();
+    for (int corner : corners)
+      marker.colors.push_back(shade(marker.color, shading_normal(surface.normals[corner], normal)));
   }
   for (Marker& marker : markers) delete_if_empty(marker);
   std::move(markers.begin(), markers.end(), std::back_inserter(all));

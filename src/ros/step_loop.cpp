@@ -11,6 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kWarnEvery = 10.0;                   // s, on the console
 constexpr double kZeroEvery = 0.1;                    // s, of zero wrenches while the input is stale
 constexpr auto kIdle = std::chrono::milliseconds(1);  // between two looks at an empty queue
 
@@ -103,6 +104,8 @@ std::optional<StepInput> StepLoop::next_input() {
   if (timeline_.lag() <= config_.node.max_lag) return timeline_.next();
   double skipped = 0.0;
   input = timeline_.catch_up(skipped);
+  ROS_WARN_THROTTLE(kWarnEvery, "Slower than real time: %.2f s were left out so far (node.timing: realtime)",
+                    status().skipped + skipped);
   const std::lock_guard lock(mutex_);
   status_.skipped += skipped;
   return input;
@@ -168,14 +171,21 @@ void StepLoop::record(const StepReport& report) {
   }
 }
 
+/// Now, on the input's clock, s.
+double StepLoop::input_time() const {
+  return last_step_ == Clock::time_point{} ? time_.load() : time_ + seconds_since(last_step_);
+}
+
 void StepLoop::watch_input() {
+  if (tracker_.counts().received == 0)
+    ROS_WARN_DELAYED_THROTTLE(kWarnEvery, "No pose has come yet: waiting for %s", tracker_.source().c_str());
   if (tracker_.silence() <= config_.node.input_timeout || tracker_.has_poses() || pending_) return;
   {
     const std::lock_guard lock(mutex_);
     if (std::exchange(status_.stale, true) && seconds_since(last_zero_) < kZeroEvery) return;
   }
   last_zero_ = Clock::now();
-  step_publisher_.publish_zero_wrench(time_);
+  step_publisher_.publish_zero_wrench(input_time());
 }
 
 void StepLoop::show(bool changed) {
@@ -188,7 +198,7 @@ void StepLoop::set_state(OperatingState state, const std::string& fault) {
     status_.state = state;
     status_.fault = fault;
   }
-  if (state != OperatingState::kEnabled) step_publisher_.publish_zero_wrench(time_);
+  if (state != OperatingState::kEnabled) step_publisher_.publish_zero_wrench(input_time());
   step_publisher_.publish_state(name_of(state));
 }
 

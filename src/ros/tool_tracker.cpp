@@ -54,6 +54,11 @@ ToolTracker::ToolTracker(ros::NodeHandle& node, const Config& config)
   }
 }
 
+std::string ToolTracker::source() const {
+  if (config_.pose_input == PoseInput::kTf) return "the frame " + config_.tool_frame + " in tf";
+  return "poses on " + subscriber_.getTopic();
+}
+
 void ToolTracker::refuse_pose() {
   queue_.count_invalid();
   ROS_WARN_THROTTLE(kWarnEvery, "tool/measured_cp: poses left out: not finite, or no unit quaternion");

@@ -78,6 +78,7 @@ void Simulation::State::rebuild(const Fracture& fracture) {
   inherit(elastic.v);
   for (NodeField& v : elastic.past_v) inherit(v);
   inherit(reference);
+  inherit(drift);
   pieces = find_pieces(volume);
   find_held();
   grips.move(model.mesh(), elapsed, {});

@@ -74,7 +74,16 @@ void Simulation::State::place_grips(const StepInput& input) {
   grip_step = grips.move(model.mesh(), elapsed, input.grips);
   grip_travel += grip_step;
   const bool outdated = grip_travel > kNoticeable * volume.lattice().spacing.minCoeff();
-  if (outdated && !contact.empty()) refresh_reference();
+  if (outdated && !contact.empty()) carry_reference();
+}
+
+/// Grips mostly move on as they did: so the reference is looked for where it would be then.
+void Simulation::State::carry_reference() {
+  const double travel = grip_travel;
+  const NodeField before = reference;
+  if (drift.cols() == reference.cols()) reference += travel * drift;
+  refresh_reference();
+  drift = (reference - before) / travel;
 }
 
 void Simulation::State::find_held() {

@@ -47,6 +47,7 @@ struct Simulation::State {
   void describe(const Fracture& fracture, FractureEvent& event);
   void find_held();
   void refresh_reference();
+  void carry_reference();
   void follow_free_state();
   OffsetField offset_field() const;
   double potential(const NodeField& x) const;
@@ -92,6 +93,7 @@ struct Simulation::State {
   bool reference_converged = true;
   double grip_step = 0.0;    // m, in this step
   double grip_travel = 0.0;  // m, since the reference was solved for
+  NodeField drift;           // of the reference, over the grips' way, when it was last carried
   std::vector<std::string> warnings;
 };
 

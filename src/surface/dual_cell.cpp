@@ -103,7 +103,8 @@ Planes planes_of(const VoxelVolume& volume, const DualCell& cell, const SheetGro
 Vec3 place(const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {
   const Planes planes = planes_of(volume, cell, group);
   const Box room = room_in_cell(volume.lattice(), cell.index);
-  return (cell.groups.size() > 1 ? mean : minimum)(planes.skin, planes.cut, room);
+  return cell.groups.size() > 1 ? mean(planes.skin, planes.cut, room)
+                                : minimum(planes.skin, planes.cut, room);
 }
 
 }  // namespace

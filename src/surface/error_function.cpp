@@ -21,14 +21,23 @@ constexpr double kMargin = 0.15;
 
 Vec3 clamp(const Vec3& X, const Box& room) { return X.cwiseMax(room.min()).cwiseMin(room.max()); }
 
-/// As far along a way from a point in the room as the room reaches.
-Vec3 go(const Vec3& from, const Vec3& way, const Box& room) {
-  double part = 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double end = (way[axis] > 0.0 ? room.max() : room.min())[axis] - from[axis];
-    if (std::abs(way[axis]) > std::abs(end)) part = std::min(part, end / way[axis]);
+/// How far a way from a point in the room stays there: a part of it, and the axis of the wall that ends it,
+/// or −1.
+struct Reach {
+  Reach(const Vec3& from, const Vec3& way, const Box& room) {
+    for (int i = 0; i < 3; ++i) {
+      const double end = (way[i] > 0.0 ? room.max() : room.min())[i] - from[i];
+      if (!(std::abs(way[i]) > std::abs(end)) || end / way[i] >= part) continue;
+      part = end / way[i];
+      axis = i;
+    }
   }
-  return from + part * way;
+  double part = 1.0;
+  int axis = -1;
+};
+
+Vec3 go(const Vec3& from, const Vec3& way, const Box& room) {
+  return from + Reach(from, way, room).part * way;
 }
 
 /// Towards the planes' minimum along allowed directions: along a wall of the room, too, where it is in the
@@ -36,15 +45,12 @@ Vec3 go(const Vec3& from, const Vec3& way, const Box& room) {
 Vec3 slide(Vec3 X, const ErrorFunction& planes, Mat3 allowed, const Box& room) {
   for (int walls = 0; walls < 3; ++walls) {
     const Vec3 way = planes.way_to_minimum(X, kTruncation, allowed);
-    const Vec3 end = go(X, way, room);
-    const Vec3 left = X + way - end;
-    X = end;
-    Eigen::Index axis = 0;
-    const Vec3 beyond = (X + left - clamp(X + left, room)).cwiseAbs();
-    if (!(beyond.maxCoeff(&axis) > 0.0)) break;
-    const Vec3 normal = allowed.col(axis);  // of the wall, as far as allowed
-    if (normal[axis] < 1e-6) break;
-    allowed -= normal * normal.transpose() / normal[axis];
+    const Reach reach(X, way, room);
+    X += reach.part * way;
+    if (reach.axis < 0) break;
+    const Vec3 normal = allowed.col(reach.axis);  // of the wall, as far as allowed
+    if (normal[reach.axis] < 1e-6) break;
+    allowed -= normal * normal.transpose() / normal[reach.axis];
   }
   return X;
 }
@@ -57,9 +63,14 @@ Vec3 way_off_walls(const Vec3& X, const ErrorFunction& planes, double truncation
   return planes.free_directions(truncation) * inwards;
 }
 
+/// Begins below the mean of all crossings if that is in the room, else at the cut's own crossings, which are.
 Vec3 minimum_on_cut(const Vec3& start, const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {
   const Mat3 in_plane = cut.free_directions(kTruncation);
-  const Vec3 on_cut = clamp(start + cut.way_to_minimum(start, kTruncation), room);
+  const auto onto_cut = [&](const Vec3& from) -> Vec3 {
+    return from + cut.way_to_minimum(from, kTruncation);
+  };
+  const Vec3 below = onto_cut(start);
+  const Vec3 on_cut = room.contains(below) ? below : clamp(onto_cut(cut.sum() / cut.count()), room);
   const Vec3 X = slide(on_cut, skin, in_plane, room);
   return go(X, in_plane * way_off_walls(X, skin + cut, kCrease, room), room);
 }

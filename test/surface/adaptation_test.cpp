@@ -88,14 +88,14 @@ TEST(CutEnd, lies_on_the_front_and_stays_when_frozen) {
   EXPECT_EQ(surface.rest().vertices, held);
 }
 
-/// How far ends of a cut are from it, at most. It is the part of the plane x = 4.2 with y > 2.2 and z > 2.8.
+/// How far ends of a cut are from it, at most. It is the part of the plane x = 4.2 with y > 2.48 and z > 2.8.
 double farthest_end(bool on_cut) {
   VoxelVolume volume = box_volume({8, 6, 6});
-  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()}, [](const Vec3& X) { return X.y() > 2.2 && X.z() > 2.8; });
-  const auto nearest = [](const Vec3& X) { return Vec3(4.2, std::max(2.2, X.y()), std::max(2.8, X.z())); };
+  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()}, [](const Vec3& X) { return X.y() > 2.48 && X.z() > 2.8; });
+  const auto nearest = [](const Vec3& X) { return Vec3(4.2, std::max(2.48, X.y()), std::max(2.8, X.z())); };
   SurfaceExtractor extractor(volume, on_cut ? SurfaceExtractor::NearestOnCut(nearest) : nullptr);
   extractor.freeze();
-  const TissueSurface& surface = extractor.extract({line({4.2, 2.2, 2.8}, {4.2, 6.0, 2.8})});
+  const TissueSurface& surface = extractor.extract({line({4.2, 2.48, 2.8}, {4.2, 6.0, 2.8})});
   expect_closed_and_manifold(surface.rest(), "cut end beside the front");
   EXPECT_EQ(count_flipped(surface), 0);
   EXPECT_NEAR(enclosed_volume(surface.rest()), 288.0, 1e-9);

@@ -76,6 +76,7 @@ class StepLoop {
   void step(StepInput input);
   void record(const StepReport& report);
   void watch_input();
+  double input_time() const;
   void show(bool changed);
   void set_state(OperatingState state, const std::string& fault = "");
   void forget();

@@ -30,6 +30,9 @@ class ToolTracker {
   /// Whether tf may yet bring the followed frames at that time: worth waiting for when every step counts.
   bool grips_are_late(double time) const;
 
+  /// Where poses come from, for people.
+  std::string source() const;
+
   void clear() { queue_.clear(); }
   bool has_poses() const { return queue_.has_placed(); }
   PoseCounts counts() const { return queue_.counts(); }

@@ -73,7 +73,8 @@ class SurfaceExtractor {
 
   /// Keeps the present virtual intersection points of sheets in which a cut ends when the front moves on, and
   /// those that the next `extract` makes: a cut ends where the blade was, until the cut goes on through the
-  /// same sheets. New ends of cuts beside the front go to the cut.
+  /// same sheets. With adaptation, ends of cuts beside the front go to the cut then, where a cell has no
+  /// other cut.
   void freeze();
 
   const TissueSurface& surface() const;
