@@ -165,6 +165,18 @@ RunFigures run_steps(Simulation& simulation, StepSource& steps, const OutputFold
   return figures;
 }
 
+/// Says them, and keeps them for the summary.
+void warn(const std::vector<std::string>& warnings, std::vector<std::string>& kept) {
+  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << std::endl;
+  kept.insert(kept.end(), warnings.begin(), warnings.end());
+}
+
+std::vector<std::string> jump_warnings(std::uint64_t jumps) {
+  if (jumps == 0) return {};
+  return {std::to_string(jumps) +
+          " pose(s) are farther than blade.max_travel from the one before: nothing is cut there"};
+}
+
 void write_results(const OutputFolder& folder, const Simulation& simulation, const RunFigures& figures,
                    const std::vector<std::string>& warnings) {
   write_links(folder, simulation.volume());
@@ -183,20 +195,17 @@ void run_replay(const ReplayOptions& options, const BagReader& read_bag) {
   const bool has_tool = options.duration == 0.0;
   const bool has_blade = !config.blade.edge.empty() || !config.blade.edge_links.empty();
   const Blade blade = has_tool || has_blade ? load_blade(config.blade, resolve) : idle_blade();
-  Recording recording = read_recording(options, read_bag, config.tissue);
+  const Recording recording = read_recording(options, read_bag, config.tissue);
   OutputFolder folder(options.out);
   Simulation simulation(config, *load_shape(config.tissue, resolve), blade);
-  for (const auto& warnings : {recording.warnings, simulation.warnings()})
-    for (const std::string& warning : warnings) std::cerr << "warning: " << warning << std::endl;
+  std::vector<std::string> warnings;
+  warn(recording.warnings, warnings);
+  warn(simulation.warnings(), warnings);
   StepSource steps(recording, simulation, options.duration);
   const RunFigures figures = run_steps(simulation, steps, folder, options.surface_every);
-  if (steps.jumps() > 0) {
-    recording.warnings.push_back(
-        std::to_string(steps.jumps()) +
-        " pose(s) are farther than blade.max_travel from the one before: nothing is cut there");
-    std::cerr << "warning: " << recording.warnings.back() << std::endl;
-  }
-  write_results(folder, simulation, figures, recording.warnings);
+  warn(jump_warnings(steps.jumps()), warnings);
+  warn(run_warnings(figures.statistics), warnings);
+  write_results(folder, simulation, figures, warnings);
   folder.publish();
   std::cout << figures.statistics.steps << " steps in " << figures.wall_time << " s, "
             << figures.statistics.fracture_events << " fractures; results are in " << options.out

@@ -53,17 +53,6 @@ Json front_figures(const FrontFidelity& front) {
           {"buried_samples", front.buried}};
 }
 
-std::vector<std::string> run_warnings(const RunStatistics& statistics) {
-  std::vector<std::string> warnings;
-  if (statistics.unconverged_steps > 0)
-    warnings.push_back("the solver did not converge in " + std::to_string(statistics.unconverged_steps) +
-                       " of " + std::to_string(statistics.steps) + " steps");
-  if (statistics.steps_with_inverted_elements > 0)
-    warnings.push_back("elements were flat or inverted in " +
-                       std::to_string(statistics.steps_with_inverted_elements) + " steps");
-  return warnings;
-}
-
 /// The smallest value that this part of the values does not exceed (nearest rank).
 double percentile(const std::vector<double>& sorted, double part) {
   if (sorted.empty()) return 0.0;
@@ -92,12 +81,21 @@ void RunStatistics::add(const StepReport& report, const FrontFidelity& fidelity)
 
 double RunStatistics::mean_force() const { return ratio(force_sum_, steps_in_contact_); }
 
+std::vector<std::string> run_warnings(const RunStatistics& statistics) {
+  std::vector<std::string> warnings;
+  if (statistics.unconverged_steps > 0)
+    warnings.push_back("the solver did not converge in " + std::to_string(statistics.unconverged_steps) +
+                       " of " + std::to_string(statistics.steps) + " steps");
+  if (statistics.steps_with_inverted_elements > 0)
+    warnings.push_back("elements were flat or inverted in " +
+                       std::to_string(statistics.steps_with_inverted_elements) + " steps");
+  return warnings;
+}
+
 void write_summary(const OutputFolder& folder, const Simulation& simulation, const RunStatistics& statistics,
-                   std::vector<std::string> warnings) {
+                   const std::vector<std::string>& warnings) {
   const CompositeMesh& mesh = simulation.model().mesh();
   const VoxelVolume& volume = simulation.volume();
-  for (const auto& more : {simulation.warnings(), run_warnings(statistics)})
-    warnings.insert(warnings.end(), more.begin(), more.end());
   write_json(folder, "summary.json",
              {{"steps", statistics.steps},
               {"sim_time_s", statistics.steps * simulation.config().dynamics.time_step},

@@ -31,11 +31,13 @@ class RunStatistics {
   double force_sum_ = 0.0;
 };
 
+/// What went wrong in a run's steps.
+std::vector<std::string> run_warnings(const RunStatistics& statistics);
+
 /// Writes summary.json; its surface figures are those of the undeformed surface.
-/// @param warnings beside those of the simulation
 /// @throw FileError
 void write_summary(const OutputFolder& folder, const Simulation& simulation, const RunStatistics& statistics,
-                   std::vector<std::string> warnings);
+                   const std::vector<std::string>& warnings);
 
 /// Writes timing.json.
 /// @param wall_time s
