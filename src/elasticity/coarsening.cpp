@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "union_find.h"
+#include "shared_face.h"
 
 namespace cfem_cutting {
 namespace {
@@ -63,9 +63,7 @@ void unite_nodes(const std::vector<FacePair>& pairs, const std::vector<int>& par
   UnionFind sets(8 * coarse.size());
   for (const FacePair& pair : pairs) {
     const int a = parent[pair.lower], b = parent[pair.upper];
-    if (a == b) continue;
-    for (int n = 0; n < 8; ++n)
-      if (!(n >> pair.axis & 1)) sets.unite(8 * a + (n | 1 << pair.axis), 8 * b + n);
+    if (a != b) unite_at_face(sets, a, b, pair.axis);
   }
   std::vector<int> number(8 * coarse.size());
   coarse.node_count = number_roots(sets, number);

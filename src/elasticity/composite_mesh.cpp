@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "morton.h"
-#include "union_find.h"
+#include "shared_face.h"
 #include "voxel_joints.h"
 
 namespace cfem_cutting {
@@ -89,10 +89,7 @@ std::size_t count_components(const std::vector<int>& root) {
 /// Unites the private nodes of two elements that lie at the same corner positions.
 void unite_shared_corners(UnionFind& nodes, int a, int b, const Vec3i& offset) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (offset != Vec3i::Unit(axis)) continue;
-    for (int n = 0; n < 8; ++n)
-      if (!(n >> axis & 1)) nodes.unite(8 * a + (n | 1 << axis), 8 * b + n);
-    return;
+    if (offset == Vec3i::Unit(axis)) return unite_at_face(nodes, a, b, axis);
   }
   for (int n = 0; n < 8; ++n) {
     const Vec3i bits = corner_bits(n) - offset;
