@@ -82,6 +82,7 @@ std::vector<LargestEigenvalue::Print> LargestEigenvalue::prints_of(const LevelSy
 
 double LargestEigenvalue::largest_near(const std::vector<Print>& changed, const LevelSystem& level) {
   std::vector<int> elements;
+  elements.reserve(changed.size());
   for (const Print& print : changed) elements.push_back(print.element);
   const TiledElements& whole = level.product().elements();
   Part part(whole, free_nodes(whole.set, level.held(), elements));

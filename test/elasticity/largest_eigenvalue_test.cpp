@@ -30,8 +30,8 @@ struct Level {
   explicit Level(const ElasticModel& model, double height = 0.02) {
     const NodeField& rest = model.mesh().rest();
     const double bottom = rest.row(2).minCoeff() + height;
-    std::vector<char> held;
-    for (int n = 0; n < model.mesh().node_count(); ++n) held.push_back(rest(2, n) < bottom);
+    std::vector<char> held(model.mesh().node_count());
+    for (int n = 0; n < model.mesh().node_count(); ++n) held[n] = rest(2, n) < bottom;
     system.arrange(model.elements(), std::move(held));
   }
   ThreadPool pool{1};
