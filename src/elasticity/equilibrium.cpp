@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kWeakSpring = 1e-3;       // of E h
 constexpr double kNegligibleForce = 1e-6;  // of E h²
-constexpr double kLoosestSolve = 1e-2;     // inner tolerance: the tangent is inexact anyway
+constexpr double kLoosestSolve = 0.1;      // inner tolerance: the tangent is inexact anyway
+constexpr double kPartOfFirst = 1e-2;      // of the first residual: what residuals are relative to at least
 constexpr double kTightestSolve = 1e-13;
 
 }  // namespace
@@ -83,7 +84,7 @@ SolveReport Equilibrium::solve_newton(Multigrid& multigrid, ConjugateGradients& 
   model_.respond(x, multigrid.pool(), elastic_);
   for (int newton = 0;; ++newton) {
     NodeField f = forces(elastic_, x);
-    const double reference = std::max(load(f), kLoosestSolve * initial);
+    const double reference = std::max(load(f), kPartOfFirst * initial);
     clear_held(f);
     bool held_in_place = true;
     for (std::size_t i = 0; i < held_.nodes.size(); ++i)
