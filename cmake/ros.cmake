@@ -1,5 +1,11 @@
 # The ROS side: messages, the library of src/ros, the nodes, and their tests with a ROS master.
 
+# ROS needs the system's Python, not one of pyenv or conda that may come first on PATH.
+foreach(python PYTHON_EXECUTABLE Python3_EXECUTABLE)
+  if(NOT DEFINED ${python} AND EXISTS "/usr/bin/python3")
+    set(${python} /usr/bin/python3 CACHE FILEPATH "The Python that ROS came with")
+  endif()
+endforeach()
 find_package(catkin REQUIRED COMPONENTS
   diagnostic_updater geometry_msgs message_generation resource_retriever rosbag roscpp roslib std_msgs std_srvs tf2
   tf2_eigen tf2_msgs tf2_ros visualization_msgs)
