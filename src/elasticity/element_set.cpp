@@ -2,11 +2,14 @@
 
 namespace cfem_cutting {
 
-std::vector<double> ElementSet::traces() const {
-  std::vector<double> traces(stiffness.size());
-  for (std::size_t e = 0; e < traces.size(); ++e)  // neighbours mostly have one object
-    traces[e] = e > 0 && stiffness[e] == stiffness[e - 1] ? traces[e - 1] : stiffness[e]->trace();
-  return traces;
+double ElementSet::trace() const {
+  double sum = 0.0, last = 0.0;
+  for (std::size_t e = 0; e < stiffness.size(); ++e) {
+    if (e == 0 || stiffness[e] != stiffness[e - 1])
+      last = stiffness[e]->trace();  // neighbours mostly share one
+    sum += last;
+  }
+  return sum;
 }
 
 NodeCorners::NodeCorners(const ElementSet& set)

@@ -19,7 +19,7 @@ struct ElementSet {
   std::vector<MatrixPointer> stiffness;  ///< N/m; equal ones are one object
   int node_count = 0;
   int size() const { return static_cast<int>(nodes.size()); }
-  std::vector<double> traces() const;  ///< N/m, of the stiffnesses
+  double trace() const;  ///< N/m, of all stiffnesses
 };
 
 /// For each node the elements that meet there, as 8 e + corner, ascending.

@@ -14,7 +14,7 @@ Integrator::~Integrator() = default;
 
 SolveReport Integrator::step(const ElasticModel& model, ElasticState& state, double dt, const Vec3& gravity,
                              const HeldNodes& held, const std::vector<PointConstraint>& constraints) {
-  const FlushSubnormals flush;
+  const FlushSubnormals flush;  // also where no thread pool is at work
   ThreadPool& pool = workspace_->pool;
   ElasticResponse& elastic = workspace_->elastic;
   model.respond(state.x, pool, elastic);

@@ -17,11 +17,11 @@ class LargestEigenvalue {
   double update(LevelSystem& level);
 
  private:
-  /// An element as its neighbours see it. Equal ones mean that nothing changed.
+  /// An element as its neighbours see it: its matrix's diagonal, and of its nodes how many elements meet
+  /// there and whether they are held. Equal ones mean that nothing changed.
   struct Print {
     std::uint64_t place;  // Morton's
-    std::uint64_t
-        look;  // of its matrix's diagonal, and of the nodes: how many elements meet there, whether held
+    std::uint64_t look;
     int element;
   };
   static std::vector<Print> prints_of(const LevelSystem& level);

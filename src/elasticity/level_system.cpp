@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 
 // A lambda's body goes into the loop that calls it.
 #if defined(__GNUC__)
@@ -43,8 +42,7 @@ void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
   stiffness_factor_ = 1.0f;
   constraints_.clear();
   product_.arrange(std::move(elements));
-  const std::vector<double> traces = product_.elements().set.traces();
-  mean_at_rest_ = std::accumulate(traces.begin(), traces.end(), 0.0) / (3.0 * held_.size());
+  mean_at_rest_ = product_.elements().set.trace() / (3.0 * held_.size());
 }
 
 double LevelSystem::largest_at_rest(int steps) {

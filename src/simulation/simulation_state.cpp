@@ -77,13 +77,15 @@ void Simulation::State::place_grips(const StepInput& input) {
   if (outdated && !contact.empty()) carry_reference();
 }
 
-/// Grips mostly move on as they did: so the reference is looked for where it would be then.
+/// Grips mostly move on as they did: so the reference is looked for where it would be then, but no farther on
+/// than it went the last time.
 void Simulation::State::carry_reference() {
   const double travel = grip_travel;
   const NodeField before = reference;
-  if (drift.cols() == reference.cols()) reference += travel * drift;
+  if (drift.cols() == reference.cols()) reference += std::min(travel, last_travel) * drift;
   refresh_reference();
   drift = (reference - before) / travel;
+  last_travel = travel;
 }
 
 void Simulation::State::find_held() {

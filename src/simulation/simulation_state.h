@@ -94,6 +94,7 @@ struct Simulation::State {
   double grip_step = 0.0;    // m, in this step
   double grip_travel = 0.0;  // m, since the reference was solved for
   NodeField drift;           // of the reference, over the grips' way, when it was last carried
+  double last_travel = 0.0;  // m, of the grips, then
   std::vector<std::string> warnings;
 };
 
