@@ -1,7 +1,9 @@
 #include "coarsening.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "node_numbering.h"
 #include "shared_face.h"
 
 namespace cfem_cutting {
@@ -37,25 +39,17 @@ std::vector<FacePair> find_face_pairs(const ElementSet& set, const NodeCorners& 
   return pairs;
 }
 
-/// Numbers roots by their first occurrence.
-/// @return the number of sets
-int number_roots(UnionFind& sets, std::vector<int>& number) {
-  std::vector<int> of_root(number.size(), -1);
-  int count = 0;
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    int& n = of_root[sets.find(static_cast<int>(i))];
-    if (n < 0) n = count++;
-    number[i] = n;
-  }
-  return count;
-}
-
+/// Coarse elements are numbered by their first part.
 std::vector<int> find_parents(const ElementSet& fine, const std::vector<FacePair>& pairs) {
   UnionFind sets(fine.size());
   for (const FacePair& pair : pairs)
     if (halved(fine.block[pair.lower]) == halved(fine.block[pair.upper])) sets.unite(pair.lower, pair.upper);
   std::vector<int> parent(fine.size());
-  number_roots(sets, parent);
+  int count = 0;
+  for (int e = 0; e < fine.size(); ++e) {
+    const int root = sets.find(e);  // the smallest
+    parent[e] = root == e ? count++ : parent[root];
+  }
   return parent;
 }
 
@@ -65,9 +59,10 @@ void unite_nodes(const std::vector<FacePair>& pairs, const std::vector<int>& par
     const int a = parent[pair.lower], b = parent[pair.upper];
     if (a != b) unite_at_face(sets, a, b, pair.axis);
   }
-  std::vector<int> number(8 * coarse.size());
-  coarse.node_count = number_roots(sets, number);
-  for (int c = 0; c < coarse.size(); ++c) std::copy_n(number.begin() + 8 * c, 8, coarse.nodes[c].begin());
+  const NodeNumbering number(sets, coarse.size());
+  coarse.node_count = number.count;
+  for (int c = 0; c < coarse.size(); ++c)
+    std::copy_n(number.of_corner.begin() + 8 * c, 8, coarse.nodes[c].begin());
 }
 
 Interpolation interpolate(const ElementSet& fine, const ElementSet& coarse, const std::vector<int>& parent) {
@@ -81,10 +76,10 @@ Interpolation interpolate(const ElementSet& fine, const ElementSet& coarse, cons
     const Eigen::Matrix<double, 8, 1> weights = corner_weights(offset, corner % 8);
     for (int m = 0; m < 8; ++m) {
       if (weights[m] == 0.0) continue;
-      sums.node.push_back(coarse.nodes[c][m]);
-      sums.weight.push_back(static_cast<float>(weights[m]));
+      sums.terms.push_back({static_cast<std::uint32_t>(coarse.nodes[c][m]),
+                            static_cast<std::uint32_t>(-std::ilogb(weights[m]))});
     }
-    sums.first.push_back(static_cast<int>(sums.node.size()));
+    sums.first.push_back(static_cast<int>(sums.terms.size()));
   }
   return sums;
 }
@@ -117,18 +112,13 @@ Coarsening::Coarsening(const TiledElements& elements) {
 Interpolation Interpolation::transposed(int columns) const {
   Interpolation t;
   t.first.assign(columns + 1, 0);
-  for (int n : node) ++t.first[n + 1];
+  for (const Term& term : terms) ++t.first[term.node + 1];
   for (int n = 0; n < columns; ++n) t.first[n + 1] += t.first[n];
-  t.node.resize(node.size());
-  t.weight.resize(node.size());
+  t.terms.resize(terms.size());
   std::vector<int> next(t.first.begin(), t.first.end() - 1);
-  for (int row = 0; row < rows(); ++row) {
-    for (int i = first[row]; i < first[row + 1]; ++i) {
-      const int at = next[node[i]]++;
-      t.node[at] = row;
-      t.weight[at] = weight[i];
-    }
-  }
+  for (int i = 0; i < rows(); ++i)
+    for (const Term& term : row(i))
+      t.terms[next[term.node]++] = {static_cast<std::uint32_t>(i), term.halvings};
   return t;
 }
 
@@ -140,10 +130,10 @@ void Interpolation::apply(ThreadPool& pool, const Eigen::Matrix4Xf& x, Eigen::Ma
 void Interpolation::add(ThreadPool& pool, const Eigen::Matrix4Xf& x, Eigen::Matrix4Xf& y) const {
   constexpr int kFewest = 512;  // rows worth waking a thread for
   pool.for_range(rows(), kFewest, [&](int begin, int end) {
-    for (int row = begin; row < end; ++row) {
-      Eigen::Vector4f sum = y.col(row);
-      for (int i = first[row]; i < first[row + 1]; ++i) sum += weight[i] * x.col(node[i]);
-      y.col(row) = sum;
+    for (int i = begin; i < end; ++i) {
+      Eigen::Vector4f sum = y.col(i);
+      for (const Term& term : row(i)) sum += term.weight() * x.col(term.node);
+      y.col(i) = sum;
     }
   });
 }

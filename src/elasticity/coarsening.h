@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "element_tiles.h"
@@ -7,13 +9,27 @@
 
 namespace cfem_cutting {
 
-/// Weighted sums of values at other nodes: row i of a sparse matrix.
+/// Weighted sums of values at other nodes: row i of a sparse matrix. In a block of half the size all weights
+/// are powers of two, and so take little memory.
 struct Interpolation {
+  struct Term {
+    std::uint32_t node : 30, halvings : 2;
+    float weight() const {
+      constexpr std::array<float, 4> kPowers{1.0f, 0.5f, 0.25f, 0.125f};
+      return kPowers[halvings];
+    }
+  };
   std::vector<int> first{0};  ///< (|rows| + 1)
-  std::vector<int> node;
-  std::vector<float> weight;
+  std::vector<Term> terms;
+
+  struct Row {
+    const Term *first, *last;
+    const Term* begin() const { return first; }
+    const Term* end() const { return last; }
+  };
 
   int rows() const { return static_cast<int>(first.size()) - 1; }
+  Row row(int i) const { return {terms.data() + first[i], terms.data() + first[i + 1]}; }
   Interpolation transposed(int columns) const;
 
   /// y_i = Σ w x, or y_i += Σ w x

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "morton.h"
+#include "node_numbering.h"
 #include "shared_face.h"
 #include "voxel_joints.h"
 
@@ -98,18 +99,14 @@ void unite_shared_corners(UnionFind& nodes, int a, int b, const Vec3i& offset) {
   }
 }
 
-/// Numbers the united private nodes by their first occurrence.
-/// @return for each node the private one that came first, as 8 e + corner
+/// Gives the elements their nodes.
+/// @return for each node its first private one, as 8 e + corner
 std::vector<int> number_nodes(UnionFind& sets, std::vector<CompositeElement>& elements) {
-  std::vector<int> number(8 * elements.size(), -1), first;
-  first.reserve(2 * elements.size());
-  for (int i = 0; i < static_cast<int>(number.size()); ++i) {
-    int& of_root = number[sets.find(i)];
-    if (of_root < 0) {
-      of_root = static_cast<int>(first.size());
-      first.push_back(i);
-    }
-    elements[i / 8].nodes[i % 8] = of_root;
+  const NodeNumbering number(sets, static_cast<int>(elements.size()));
+  std::vector<int> first(number.count);
+  for (int i = static_cast<int>(number.of_corner.size()) - 1; i >= 0; --i) {
+    first[number.of_corner[i]] = i;
+    elements[i / 8].nodes[i % 8] = number.of_corner[i];
   }
   return first;
 }

@@ -44,7 +44,9 @@ void ElementProduct::find_diagonal(std::vector<NodeBlock>& blocks) const {
     elements_->tiles.sum_up<float>(
         *pool_,
         [&](int b, float* y) { cfem_cutting::find_diagonal(batch<float>(single_, b, nullptr, y), beside); },
-        [&](int node, const Quad& sum) { (beside ? blocks[node].beside : blocks[node].diagonal) = sum; });
+        [&](int node, const Quad& sum) {
+          (beside ? blocks[node].beside : blocks[node].diagonal) = sum.head<3>();
+        });
 }
 
 template <typename Scalar>

@@ -15,7 +15,7 @@ using MatrixPointer = std::shared_ptr<const ElementMatrix>;
 /// multigrid hierarchy.
 struct ElementSet {
   std::vector<Vec3i> block;
-  std::vector<ElementNodes> nodes;       ///< numbered by their first element
+  std::vector<ElementNodes> nodes;       ///< see NodeNumbering
   std::vector<MatrixPointer> stiffness;  ///< N/m; equal ones are one object
   int node_count = 0;
   int size() const { return static_cast<int>(nodes.size()); }

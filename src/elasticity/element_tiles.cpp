@@ -24,7 +24,7 @@ std::vector<std::vector<int>> group_by_matrix(const ElementSet& elements, int be
 }  // namespace
 
 ElementTiles::ElementTiles(const ElementSet& elements, const NodeCorners& at)
-    : tile_size_(std::clamp(elements.size() / 4, kTile / 4, kTile)) {
+    : tile_size_(tile_size(elements.size())) {
   nodes.reserve(static_cast<std::size_t>(elements.size()) * 9);  // batches are hardly ever full
   for (int begin = 0; begin < elements.size(); begin += tile_size_)
     add_tile(elements, begin, std::min(elements.size(), begin + tile_size_));
@@ -80,7 +80,7 @@ void ElementTiles::add_nodes(const ElementSet& elements, const NodeCorners& at) 
   int last_tile = 0;
   for (int node = 0; node < elements.node_count; ++node) {
     const int first = at.first[node], end = at.first[node + 1];
-    assert(first < end && tile_of(first) >= last_tile);  // numbered by their first element
+    assert(first < end && tile_of(first) >= last_tile);  // see NodeNumbering
     last_tile = tile_of(first);
     if (tile_of(first) == tile_of(end - 1)) {
       for (int i = first; i < end; ++i) inner_sums_.add(node, i == first, slots[at.corners[i]]);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -24,6 +25,9 @@ class ElementTiles {
 
   ElementTiles() = default;
   ElementTiles(const ElementSet& elements, const NodeCorners& at);
+
+  /// Elements of a tile, at most.
+  static int tile_size(int elements) { return std::clamp(elements / 4, kTile / 4, kTile); }
 
   int size() const { return static_cast<int>(batches.size()); }
   const int* nodes_of(int batch) const { return nodes.data() + static_cast<std::size_t>(batch) * 8 * kLanes; }
@@ -136,7 +140,7 @@ class ElementTiles {
   void add_nodes(const ElementSet& elements, const NodeCorners& at);
   void add_totals(int node_count);
 
-  int tile_size_ = kTile;  // elements
+  int tile_size_ = kTile;
   std::vector<Tile> tiles_;
   Sums<std::uint16_t> inner_sums_, border_sums_;  // of a tile's quads
   Sums<int> total_sums_;                          // of border_sums_, in order

@@ -235,11 +235,12 @@ void LevelSystem::sweep_on(Chebyshev& chebyshev, const SingleField& b, SingleFie
   }
 }
 
-void LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const {
+const SingleField& LevelSystem::smooth_from_zero(const SingleField& b, SingleField& x) const {
   Chebyshev chebyshev(largest_, smoothing_.part);
   scale(b, chebyshev.add, x);
   sweep_on(chebyshev, b, x, true);
-  residual(b, x, r);
+  residual(b, x, before_);
+  return before_;
 }
 
 void LevelSystem::smooth(const SingleField& b, SingleField& x) const {

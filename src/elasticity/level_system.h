@@ -55,8 +55,9 @@ class LevelSystem {
   /// r = b − A x; rows of held nodes are without meaning.
   void residual(const SingleField& b, const SingleField& x, SingleField& r) const;
 
-  /// x from zero towards A⁻¹ b, and r = b − A x.
-  void smooth_from_zero(const SingleField& b, SingleField& x, SingleField& r) const;
+  /// x from zero towards A⁻¹ b.
+  /// @return b − A x, until the next smoothing
+  const SingleField& smooth_from_zero(const SingleField& b, SingleField& x) const;
 
   /// x on towards A⁻¹ b.
   void smooth(const SingleField& b, SingleField& x) const;
@@ -91,7 +92,7 @@ class LevelSystem {
   std::vector<NodeBlock> inverse_;           // m/N, M⁻¹ without constraints; zero for held nodes
   Eigen::LDLT<Eigen::MatrixXf> compliance_;  // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
   DirectSolver direct_;
-  mutable SingleField before_;  // scratch
+  mutable SingleField before_;  // the last sweep's x, or a residual
 };
 
 }  // namespace cfem_cutting

@@ -33,11 +33,10 @@ std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constrain
 Interpolation without_held(const Interpolation& all, const std::vector<char>& held) {
   Interpolation kept;
   for (int row = 0; row < all.rows(); ++row) {
-    for (int i = all.first[row]; i < all.first[row + 1] && !held[row]; ++i) {
-      kept.node.push_back(all.node[i]);
-      kept.weight.push_back(all.weight[i]);
-    }
-    kept.first.push_back(static_cast<int>(kept.node.size()));
+    if (!held[row])
+      kept.terms.insert(kept.terms.end(), all.terms.begin() + all.first[row],
+                        all.terms.begin() + all.first[row + 1]);
+    kept.first.push_back(static_cast<int>(kept.terms.size()));
   }
   return kept;
 }
@@ -88,8 +87,8 @@ void Multigrid::set(std::vector<Mat3>&& rotations, const SystemValues& values) {
     const ElementSet& elements = coarse.product().elements().set;
     Eigen::VectorXf diagonal = Eigen::VectorXf::Zero(elements.node_count);
     for (int n = 0; n < fine.interpolation.rows(); ++n)
-      for (int i = fine.interpolation.first[n]; i < fine.interpolation.first[n + 1]; ++i)
-        diagonal[fine.interpolation.node[i]] += fine.interpolation.weight[i] * fine.system.node_diagonal()[n];
+      for (const Interpolation::Term& term : fine.interpolation.row(n))
+        diagonal[term.node] += term.weight() * fine.system.node_diagonal()[n];
     coarse.set(coarse_rotations(fine, elements.size()), std::move(diagonal), factor,
                coarse_constraints(fine, elements));
     const bool little = coarse.inertia() < kLittleInertia;
@@ -122,10 +121,9 @@ std::vector<ConstraintRow> Multigrid::coarse_constraints(const Level& fine, cons
     row.nodes = coarse.nodes[row.element];
     Eigen::Matrix<float, 8, 1> weights = Eigen::Matrix<float, 8, 1>::Zero();
     for (int n = 0; n < 8; ++n)
-      for (int i = fine.interpolation.first[from[n]]; i < fine.interpolation.first[from[n] + 1]; ++i)
+      for (const Interpolation::Term& term : fine.interpolation.row(from[n]))
         for (int m = 0; m < 8; ++m)
-          if (row.nodes[m] == fine.interpolation.node[i])
-            weights[m] += row.weights[n] * fine.interpolation.weight[i];
+          if (row.nodes[m] == static_cast<int>(term.node)) weights[m] += row.weights[n] * term.weight();
     row.weights = weights;
   }
   return rows;
@@ -134,8 +132,8 @@ std::vector<ConstraintRow> Multigrid::coarse_constraints(const Level& fine, cons
 void Multigrid::cycle(std::size_t l, const SingleField& b, SingleField& x) const {
   const Level& level = levels_[l];
   if (l + 1 == levels_.size()) return level.system.solve(b, x);
-  level.system.smooth_from_zero(b, x, level.residual);
-  level.restriction.apply(pool_, level.residual, level.coarse_load);
+  const SingleField& residual = level.system.smooth_from_zero(b, x);
+  level.restriction.apply(pool_, residual, level.coarse_load);
   cycle(l + 1, level.coarse_load, level.coarse_x);
   for (int i = 1; i < levels_[l + 1].cycles; ++i) cycle_again(l + 1, level.coarse_load, level.coarse_x);
   level.interpolation.add(pool_, level.coarse_x, x);
