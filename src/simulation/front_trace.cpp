@@ -1,13 +1,19 @@
 // The material curve on which the surface meets the blade's edge.
 
 #include <algorithm>
+#include <limits>
 
 #include "simulation_state.h"
 
 namespace cfem_cutting {
 namespace {
 
-constexpr double kDentReach = 4.0;  // along the edge, of contact points' spacing
+// Along the edge, of contact points' spacing:
+constexpr double kDentReach = 4.0;
+constexpr double kCrowded =
+    0.25;  // tissue that slides has brought them together, and may bring them past each other
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// The part of a segment from a point in tissue on that is in tissue, tested in steps of 1/16.
 Vec3 go_in_tissue(const VoxelVolume& volume, const Vec3& from, const Vec3& way) {
@@ -58,8 +64,9 @@ Polyline Simulation::State::follow_edge(const FrontEnd& end, const Vec3& dent) c
 /// The trace goes on from a contact point to where the edge ends or leaves the tissue: there the front, or
 /// the skin or cut's end that it has pushed in as far as at the contact point; and straight on as long as
 /// there is tissue, which in motion may reach farther along the edge than at rest.
-void Simulation::State::extend(const EdgeContactPoint& last, int step, Trace& trace) const {
-  const std::optional<FrontEnd> end = tracker.end_beyond(last.along, step, volume);
+/// @param until m, arc length at which another trace begins
+void Simulation::State::extend(const EdgeContactPoint& last, double until, int step, Trace& trace) const {
+  const std::optional<FrontEnd> end = tracker.end_beyond(last.along, until, step, volume);
   Polyline points;
   Vec3 X = last.X;
   if (end) {
@@ -68,7 +75,7 @@ void Simulation::State::extend(const EdgeContactPoint& last, int step, Trace& tr
     X = nearer_to(last.X + beyond, go_in_tissue(volume, last.X, beyond), go_in_tissue(volume, end->X, dent));
   }
   (step > 0 ? trace.tip : trace.heel) = end && end->edge_ends;
-  if ((!end || !end->edge_ends) && tissue_voxel_at(volume, X) >= 0)
+  if ((!end || (!end->edge_ends && !end->goes_on)) && tissue_voxel_at(volume, X) >= 0)
     X = go_in_tissue(volume, X, 2.0 * contact_spacing() * tracker.material_tangent(last.along, step));
   if ((X - last.X).norm() > 1e-6 * volume.lattice().spacing.minCoeff()) points.push_back(X);
   if (step < 0) std::reverse(points.begin(), points.end());
@@ -83,23 +90,22 @@ FrontTrace Simulation::State::front_trace() {
   }
   FrontTrace trace;
   const EdgeContactPoint* last = nullptr;
-  const auto close = [&] {
-    if (last) extend(*last, 1, trace.back());
-    last = nullptr;
-  };
+  bool interrupted = false;
   for (const EdgeContactPoint& p : contact.points()) {
-    if (last && (!holds(p) || !are_neighbours(*last, p, contact_spacing()))) close();
-    if (!holds(p)) continue;
-    if (last) {
+    interrupted = interrupted || !holds(p);
+    if (!holds(p) || (last && p.along - last->along < kCrowded * contact_spacing())) continue;
+    if (last && !interrupted && are_neighbours(*last, p, contact_spacing())) {
       held.push_back({{last->X, last->voxel}, {p.X, p.voxel}});
     } else {
+      if (last) extend(*last, p.along, 1, trace.back());
       trace.emplace_back();
-      extend(p, -1, trace.back());
+      extend(p, last ? last->along : -kFar, -1, trace.back());
     }
     trace.back().points.push_back(p.X);
     last = &p;
+    interrupted = false;
   }
-  close();
+  if (last) extend(*last, kFar, 1, trace.back());
   return trace;
 }
 

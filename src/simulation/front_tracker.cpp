@@ -72,7 +72,8 @@ Vec3 FrontTracker::material_tangent(double along, int step) const {
   return step * (material_[i + 1]->X - material_[i]->X).normalized();
 }
 
-std::optional<FrontEnd> FrontTracker::end_beyond(double along, int step, const VoxelVolume& volume) const {
+std::optional<FrontEnd> FrontTracker::end_beyond(double along, double until, int step,
+                                                 const VoxelVolume& volume) const {
   const std::vector<double> at = arc_lengths();
   const int count = static_cast<int>(at.size());
   const auto inside = [&](int i) { return i >= 0 && i < count && material_[i] && material_[i]->inside; };
@@ -84,11 +85,12 @@ std::optional<FrontEnd> FrontTracker::end_beyond(double along, int step, const V
   if (tissue_voxel_at(volume, end.X_at_start) < 0) return std::nullopt;
   end.X = end.X_at_start;
   int i = step > 0 ? next : before;
-  for (; inside(i); i += step) {
+  for (; inside(i) && step * (until - at[i]) > 0.0; i += step) {
     end.X = material_[i]->X;
     end.way.push_back(end.X);
   }
   end.edge_ends = i < 0 || i == count;
+  end.goes_on = inside(i);
   const bool leaves = i >= 0 && i < count && material_[i] && tissue_voxel_at(volume, material_[i]->X) < 0;
   if (leaves) end.X = find_entry(volume, material_[i]->X, end.X).X;
   return end;

@@ -56,7 +56,7 @@ struct Simulation::State {
   FrontTrace front_trace();
   bool holds(const EdgeContactPoint& p) const;
   Polyline follow_edge(const FrontEnd& end, const Vec3& dent) const;
-  void extend(const EdgeContactPoint& last, int step, Trace& trace) const;
+  void extend(const EdgeContactPoint& last, double until, int step, Trace& trace) const;
   std::vector<EdgePart> held_parts() const;
   double dent_radius() const { return 0.75 * contact_spacing(); }  ///< m, half the widest gap
   double contact_spacing() const { return 0.5 * volume.lattice().spacing.minCoeff(); }

@@ -19,8 +19,9 @@ constexpr double kBreak = 3.0;       // for vertices that nothing joins
 constexpr double kUncovered = 5.0;   // for each voxel of the trace's length, where one vertex stands for all
 constexpr double kNearest = 0.005;   // of a voxel, between vertices
 
-/// How far a vertex may be moved along the trace to its end, in voxels.
-constexpr double kReach = 2.0;
+/// How far a vertex may be moved along the trace to its end, in voxels: where the edge ends in tissue, no
+/// link may be severed for some voxels before its end.
+constexpr double kReach = 2.0, kReachToEdgeEnd = 8.0;
 
 /// A group that may become part of the chain.
 struct Node {
@@ -210,6 +211,8 @@ class ChainFinder {
     node.continues = continues;
   }
 
+  double reach(bool edge_ends) const { return (edge_ends ? kReachToEdgeEnd : kReach) * h_; }
+
   static void put_at_end(ChainLink& link, const Vec3& X, EdgeEnd edge_end) {
     link.X = X;
     link.edge_end = edge_end;
@@ -225,10 +228,10 @@ class ChainFinder {
       if (begins) break;
     }
     const double head = nodes_[first].along, tail = from_.back() - nodes_[end].along;
-    const bool short_tail = tail < kReach * h_ && (chain.size() > 1 || tail <= head);
+    const bool short_tail = tail < reach(trace_.tip) && (chain.size() > 1 || tail <= head);
     if (short_tail)
       put_at_end(chain.front(), trace_.points.back(), trace_.tip ? EdgeEnd::kTip : EdgeEnd::kNone);
-    if (head < kReach * h_ && (chain.size() > 1 || !short_tail))
+    if (head < reach(trace_.heel) && (chain.size() > 1 || !short_tail))
       put_at_end(chain.back(), trace_.points.front(), trace_.heel ? EdgeEnd::kHeel : EdgeEnd::kNone);
     std::reverse(chain.begin(), chain.end());
     return chain;

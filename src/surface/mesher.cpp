@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cfem_cutting/volume/inside.h"
+
 namespace cfem_cutting {
 namespace {
 
@@ -72,7 +74,7 @@ int Mesher::sheet_vertex(const Contour& contour, int cell, int sheet) {
   const DualCell& dual = contour.cells()[cell];
   const int group = dual.sheets[sheet].group;
   vertex = add_fixed_vertex(dual.groups[group].X(), dual.sheets[sheet].voxel, dual.index);
-  anchors_[vertex] = {cell, group};
+  anchors_[vertex] = {cell, group, dual.sheets[sheet].voxel};
   return vertex;
 }
 
@@ -99,7 +101,7 @@ int Mesher::add_fixed_vertex(const Vec3& X, int voxel, const Vec3i& cell) {
   surface_.vertices.push_back({X, voxel, cell});
   chain_.push_back(-1);
   adapted_.push_back(0);
-  anchors_.push_back({-1, -1});
+  anchors_.push_back({-1, -1, voxel});
   return static_cast<int>(surface_.vertices.size()) - 1;
 }
 
@@ -123,6 +125,7 @@ void Mesher::place(const Contour& contour, bool all) {
     adapted_[v] = group.adapted || group.frozen;
     if (chain_[v] == group.chain && vertex.edge_end == group.edge_end && vertex.X == group.X()) continue;
     vertex.X = group.X();
+    vertex.voxel = voxel_of(contour, anchors_[v]);
     vertex.on_front = group.chain >= 0;
     vertex.edge_end = group.edge_end;
     chain_[v] = group.chain;
@@ -132,6 +135,17 @@ void Mesher::place(const Contour& contour, bool all) {
     const auto& [a, b, c, d] = quad.corners;
     if (moved[a] || moved[b] || moved[c] || moved[d]) split(quad);
   }
+}
+
+/// What a vertex follows. A virtual intersection point may be far from its cell: where the tissue around is
+/// whole, it goes with the tissue at its place, as the blade's contact point there does.
+int Mesher::voxel_of(const Contour& contour, const Anchor& anchor) {
+  const DualCell& cell = contour.cells()[anchor.cell];
+  const std::optional<Vec3>& X = cell.groups[anchor.group].adapted;
+  const auto is_in_group = [&](const Sheet& sheet) { return sheet.group == anchor.group; };
+  if (!X || std::count_if(cell.sheets.begin(), cell.sheets.end(), is_in_group) > 1) return anchor.voxel;
+  const int voxel = tissue_voxel_at(contour.volume(), *X);
+  return voxel >= 0 ? voxel : anchor.voxel;
 }
 
 std::vector<Anchor> Mesher::turned() const {

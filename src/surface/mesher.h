@@ -10,6 +10,7 @@ namespace cfem_cutting {
 /// What a vertex' place follows.
 struct Anchor {
   int cell, group;
+  int voxel;  ///< of its sheet
 };
 
 /// Joins the sheets' vertices to triangles: a polygon for each link side.
@@ -41,6 +42,7 @@ class Mesher {
   int midpoint(const Contour& contour, const Polygon& polygon, int i);
   int add_fixed_vertex(const Vec3& X, int voxel, const Vec3i& cell);
   void add_triangle(const Contour& contour, const Polygon& polygon, int a, int b, int c);
+  static int voxel_of(const Contour& contour, const Anchor& anchor);
   void split(const Quad& quad);
   bool prefers_second_diagonal(const Quad& quad) const;
 

@@ -85,6 +85,12 @@ std::vector<Cut> cuts() {
                    Vec3(0.0, 0.06, 0.012),
                    {at(centre, -0.013, 0.031), at(centre, -0.013, 0.004)}});
   }
+  // The tip sweeps a wedge: for some voxels behind it no link is severed.
+  for (const double voxel : {0.002, 0.004})
+    all.push_back({"stab",
+                   voxel,
+                   Vec3(0.0, 0.0151, -0.0235),
+                   {at(0.0331, 0.0119, 0.0565), at(0.0331, 0.0119, 0.0355), at(0.0331, -0.006, 0.0355)}});
   return all;
 }
 

@@ -28,6 +28,7 @@ struct FrontMotion {
 struct FrontEnd {
   Vec3 X;           ///< m, material, the last point in tissue
   bool edge_ends;   ///< in tissue, at X
+  bool goes_on;     ///< in tissue, as far as it was followed
   Vec3 X_at_start;  ///< m, of the front at the place where it starts
   Polyline way;     ///< m, material, points of the front from there on
 };
@@ -58,9 +59,9 @@ class FrontTracker {
   std::vector<Touch> inside() const;
 
   /// Follows the edge towards its heel (step −1) or tip (1) as long as it is in tissue.
-  /// @param along m, arc length of the start
+  /// @param along, until m, arc lengths of the start and of where to stop
   /// @return nothing if the start is not in tissue
-  std::optional<FrontEnd> end_beyond(double along, int step, const VoxelVolume& volume) const;
+  std::optional<FrontEnd> end_beyond(double along, double until, int step, const VoxelVolume& volume) const;
 
   /// Of the front at a place on it, m; nothing far from tissue.
   std::optional<Vec3> material_at(double along) const;
