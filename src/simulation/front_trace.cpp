@@ -31,10 +31,9 @@ const Vec3& nearer_to(const Vec3& query, const Vec3& a, const Vec3& b) {
   return (a - query).norm() <= (b - query).norm() ? a : b;
 }
 
-/// Near each other on the edge, and in the tissue: two parts of it may lie side by side under the blade.
-bool are_neighbours(const EdgeContactPoint& a, const EdgeContactPoint& b, double spacing) {
-  const double gap = b.along - a.along;
-  return gap < 3.0 * spacing && (b.X - a.X).norm() < 3.0 * std::max(gap, spacing);
+/// As near each other in the tissue as on the edge: two parts of it may lie side by side under the blade.
+bool are_near(const EdgeContactPoint& a, const EdgeContactPoint& b, double spacing) {
+  return (b.X - a.X).norm() < 3.0 * std::max(b.along - a.along, spacing);
 }
 
 }  // namespace
@@ -82,6 +81,11 @@ void Simulation::State::extend(const EdgeContactPoint& last, double until, int s
   trace.points.insert(trace.points.end(), points.begin(), points.end());
 }
 
+bool Simulation::State::in_tissue_between(const EdgeContactPoint& a, const EdgeContactPoint& b) const {
+  const std::optional<FrontEnd> end = tracker.end_beyond(a.along, b.along, 1, volume);
+  return end && end->goes_on;
+}
+
 FrontTrace Simulation::State::front_trace() {
   held.clear();
   if (immediate()) {
@@ -94,12 +98,13 @@ FrontTrace Simulation::State::front_trace() {
   for (const EdgeContactPoint& p : contact.points()) {
     interrupted = interrupted || !holds(p);
     if (!holds(p) || (last && p.along - last->along < kCrowded * contact_spacing())) continue;
-    if (last && !interrupted && are_neighbours(*last, p, contact_spacing())) {
-      held.push_back({{last->X, last->voxel}, {p.X, p.voxel}});
-    } else {
+    const bool holds_between = last && !interrupted && p.along - last->along < 3.0 * contact_spacing();
+    if (!last || !are_near(*last, p, contact_spacing()) || !(holds_between || in_tissue_between(*last, p))) {
       if (last) extend(*last, p.along, 1, trace.back());
       trace.emplace_back();
       extend(p, last ? last->along : -kFar, -1, trace.back());
+    } else if (holds_between) {
+      held.push_back({{last->X, last->voxel}, {p.X, p.voxel}});
     }
     trace.back().points.push_back(p.X);
     last = &p;

@@ -71,9 +71,13 @@ Distances Simulation::cut_face_distances() const {
   };
   for (std::size_t t = 0; t < surface().triangles.size(); ++t) {
     if (!surface().cut[t]) continue;
-    const auto& [i, j, k] = surface().triangles[t];
-    const Vec3 &a = surface().vertices[i].X, &b = surface().vertices[j].X, &c = surface().vertices[k].X;
-    for (const Vec3& X : {a, b, c, Vec3((a + b + c) / 3.0)}) add(X);
+    Vec3 centre = Vec3::Zero();
+    for (const int v : surface().triangles[t]) {
+      const SurfaceVertex& vertex = surface().vertices[v];
+      centre += vertex.X / 3.0;
+      if (!vertex.on_front) add(vertex.X);
+    }
+    add(centre);
   }
   return distances;
 }

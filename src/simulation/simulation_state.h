@@ -56,6 +56,7 @@ struct Simulation::State {
   FrontTrace front_trace();
   bool holds(const EdgeContactPoint& p) const;
   Polyline follow_edge(const FrontEnd& end, const Vec3& dent) const;
+  bool in_tissue_between(const EdgeContactPoint& a, const EdgeContactPoint& b) const;
   void extend(const EdgeContactPoint& last, double until, int step, Trace& trace) const;
   std::vector<EdgePart> held_parts() const;
   double dent_radius() const { return 0.75 * contact_spacing(); }  ///< m, half the widest gap

@@ -7,11 +7,32 @@
 namespace cfem_cutting {
 namespace {
 
+constexpr double kOnCut = 0.02;  // of a voxel
+
 /// Where traces come to a group twice, the shorter way counts.
 void bind(SheetGroup& group, const ChainLink& link) {
   if (group.adapted && (link.X - group.minimum).norm() >= (*group.adapted - group.minimum).norm()) return;
   group.adapted = link.X;
   group.edge_end = link.edge_end;
+}
+
+using Nearest = SurfaceExtractor::NearestOnCut;
+
+bool is_near(const Contour& contour, const Vec3& a, const Vec3& b) {
+  constexpr double kNear = 0.02;  // of a voxel
+  return (a - b).norm() < kNear * contour.volume().lattice().spacing.minCoeff();
+}
+
+/// From X to the cut and by turns to what `other` leads to, and back; X if there is no cut near.
+template <typename Other>
+Vec3 to_cut_and(const Contour& contour, Vec3 X, const Nearest& nearest, const Other& other) {
+  constexpr int kTurns = 8;
+  for (int i = 0; i < kTurns; ++i) {
+    const std::optional<Vec3> on_cut = nearest(i == 0 ? X : other(X));
+    if (!on_cut || is_near(contour, X, *on_cut)) break;
+    X = *on_cut;
+  }
+  return X;
 }
 
 }  // namespace
@@ -34,27 +55,39 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves) {
   }
 }
 
-void retract(Contour& contour, int cell, int group) {
+void retract(Contour& contour, int cell, int group, const Nearest& nearest) {
   const Box room = room_in_cell(contour.volume().lattice(), contour.cells()[cell].index);
   SheetGroup& of_sheets = contour.cells()[cell].groups[group];
-  std::optional<Vec3>& X = of_sheets.adapted ? of_sheets.adapted : of_sheets.frozen;
-  if (X) X = X->cwiseMax(room.min()).cwiseMin(room.max());
+  const auto into_cell = [&](const Vec3& X) -> Vec3 { return X.cwiseMax(room.min()).cwiseMin(room.max()); };
+  of_sheets.settled = false;
+  if (of_sheets.adapted) {
+    of_sheets.adapted = into_cell(*of_sheets.adapted);
+  } else if (of_sheets.frozen) {
+    const Vec3 X = *of_sheets.frozen;
+    of_sheets.frozen = into_cell(nearest ? to_cut_and(contour, X, nearest, into_cell) : X);
+    if (*of_sheets.frozen == X) of_sheets.frozen.reset();
+  }
 }
 
-void end_on_cut(Contour& contour, const SurfaceExtractor::NearestOnCut& nearest) {
+void settle_on_cut(Contour& contour, const Nearest& nearest) {
   for (DualCell& cell : contour.cells()) {
-    if (cell.groups.size() != 1 || !cell.groups[0].cut_end) continue;  // several may not pass each other
+    if (cell.groups.size() != 1 || !cell.groups[0].severed) continue;  // several may not pass each other
     SheetGroup& group = cell.groups[0];
-    if (group.adapted || group.frozen) continue;
-    const std::optional<Vec3> X = nearest(group.minimum);
-    if (X) group.frozen = minimum_towards(*X, contour.volume(), cell, group);
+    if (group.adapted || group.settled) continue;
+    const auto onto_its_skin = [&](const Vec3& X) { return onto_skin(X, contour.volume(), cell, group); };
+    const Vec3 X = to_cut_and(contour, group.X(), nearest, onto_its_skin);
+    if (!is_near(contour, X, group.X())) group.frozen = X;
+    group.settled = true;
   }
 }
 
 void freeze_cut_ends(Contour& contour) {
   for (DualCell& cell : contour.cells())
     for (SheetGroup& group : cell.groups)
-      if (group.cut_end && group.adapted) group.frozen = group.adapted;
+      if (group.cut_end && group.adapted) {
+        group.frozen = group.adapted;
+        group.settled = false;
+      }
 }
 
 }  // namespace cfem_cutting

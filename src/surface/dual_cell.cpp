@@ -126,10 +126,9 @@ LocalSide DualCell::arc_end(LocalSide side, int normal_axis) const {
   return 3 * corner + axis;
 }
 
-Vec3 minimum_towards(const Vec3& X, const VoxelVolume& volume, const DualCell& cell,
-                     const SheetGroup& group) {
+Vec3 onto_skin(const Vec3& X, const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {
   const ErrorFunction skin = planes_of(volume, cell, group).skin;
-  return along(skin, group.minimum, X, room_in_cell(volume.lattice(), cell.index));
+  return skin.empty() ? X : Vec3(X + skin.way_to_minimum(X, kCrease));
 }
 
 DualCell contour_cell(const VoxelVolume& volume, const Vec3i& index) {

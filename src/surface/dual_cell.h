@@ -43,6 +43,7 @@ struct SheetGroup {
   bool cut_end = false;         ///< both sides of a severed link are in one sheet: the cut ends here
   Vec3 minimum = Vec3::Zero();  ///< m, of the error function
   std::optional<Vec3> frozen;   ///< m, a cut end's virtual intersection point that was kept
+  bool settled = false;         ///< it lies on what the blade has cut
   std::optional<Vec3> adapted;  ///< m, the virtual intersection point on the present trace
   const Vec3& X() const { return adapted ? *adapted : frozen ? *frozen : minimum; }
 };
@@ -64,8 +65,8 @@ struct DualCell {
   LocalSide arc_end(LocalSide side, int normal_axis) const;
 };
 
-/// A group's minimum moved towards a point: within the cell, and along the skin if it has skin.
-Vec3 minimum_towards(const Vec3& X, const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group);
+/// A point moved onto the skin's planes of a group, if it has skin.
+Vec3 onto_skin(const Vec3& X, const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group);
 
 /// Sheets, groups and the minima of their error functions.
 DualCell contour_cell(const VoxelVolume& volume, const Vec3i& index);

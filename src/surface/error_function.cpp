@@ -9,10 +9,6 @@ namespace {
 
 constexpr double kTruncation = 0.1;
 
-/// Beside a cut, and where a vertex is near its cell's walls, the skin's planes fix a second direction only
-/// if they differ by more than a crease of 33°.
-constexpr double kCrease = 0.3;
-
 /// Of the room's edges: where there is a cut, the skin's planes may be missed by less.
 constexpr double kSkinGives = 0.2;
 
@@ -131,11 +127,6 @@ Mat3 ErrorFunction::free_directions(double truncation) const {
       projector += axis * axis.transpose();
   }
   return projector;
-}
-
-Vec3 along(const ErrorFunction& skin, const Vec3& from, const Vec3& to, const Box& room) {
-  const Vec3 way = to - from;
-  return go(from, skin.empty() ? way : Vec3(skin.free_directions(kCrease) * way), room);
 }
 
 Vec3 mean(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room) {

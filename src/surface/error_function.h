@@ -4,6 +4,10 @@
 
 namespace cfem_cutting {
 
+/// Beside a cut, and where a vertex is near its cell's walls, the skin's planes fix a second direction only
+/// if they differ by more than a crease of 33°.
+constexpr double kCrease = 0.3;
+
 /// Quadratic error function Σ (nᵢ·(X − pᵢ))² of tangent planes (Ju et al. 2002).
 class ErrorFunction {
  public:
@@ -42,9 +46,6 @@ class ErrorFunction {
 /// along directions that the planes hardly fix: those of a cut, and of skin with creases under 33°. Either
 /// may be empty, not both.
 Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room);
-
-/// From one point in a box towards another as far as the box allows, along skin planes, if there are some.
-Vec3 along(const ErrorFunction& skin, const Vec3& from, const Vec3& to, const Box& room);
 
 /// The mean of the crossings, as far as a box allows.
 Vec3 mean(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room);

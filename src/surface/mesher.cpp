@@ -159,6 +159,12 @@ std::vector<Anchor> Mesher::turned() const {
     for (const int v : {a, b, c})
       if (adapted_[v]) anchors.push_back(anchors_[v]);
   }
+  for (const Quad& quad : quads_)
+    for (const int i : {0, 1}) {
+      if (!is_on_chain(quad, i) || worse_shape(quad, i) > 0.0) continue;
+      for (const int v : quad.corners)
+        if (adapted_[v] && chain_[v] < 0) anchors.push_back(anchors_[v]);
+    }
   return anchors;
 }
 
@@ -173,22 +179,25 @@ void Mesher::split(const Quad& quad) {
   second ? write(1, b, d, a) : write(1, a, c, d);
 }
 
+/// The worse of a quad's two triangles about its link, on the diagonal from corner i.
+double Mesher::worse_shape(const Quad& quad, int i) const {
+  const auto X = [&](int k) -> const Vec3& { return surface_.vertices[quad.corners[k % 4]].X; };
+  const int axis = quad.direction / 2;
+  return std::min(shape(X(i), X(i + 1), X(i + 2), axis), shape(X(i), X(i + 2), X(i + 3), axis));
+}
+
+/// Whether the chain of vertices on the front takes the diagonal from corner i.
+bool Mesher::is_on_chain(const Quad& quad, int i) const {
+  const int a = chain_[quad.corners[i]], b = chain_[quad.corners[i + 2]];
+  return a >= 0 && b >= 0 && std::abs(a - b) == 1;
+}
+
 /// Both triangles must be positive about the link. Among such, the diagonal of a chain of vertices on the
 /// front that leaves out a corner, else the better shaped triangles.
 bool Mesher::prefers_second_diagonal(const Quad& quad) const {
-  const auto vertex = [&](int i) -> const SurfaceVertex& { return surface_.vertices[quad.corners[i]]; };
-  const auto worst = [&](int i) {
-    const Vec3 &p = vertex(i).X, &q = vertex(i + 1).X, &r = vertex(i + 2).X, &s = vertex((i + 3) % 4).X;
-    const int axis = quad.direction / 2;
-    return std::min(shape(p, q, r, axis), shape(p, r, s, axis));
-  };
-  const auto chain = [&](int i) {
-    const int a = chain_[quad.corners[i]], b = chain_[quad.corners[i + 2]];
-    return a >= 0 && b >= 0 && std::abs(a - b) == 1;
-  };
-  const double first_shape = worst(0), second_shape = worst(1);
-  if (chain(0) && first_shape > 0.0) return false;
-  if (chain(1) && second_shape > 0.0) return true;
+  const double first_shape = worse_shape(quad, 0), second_shape = worse_shape(quad, 1);
+  if (is_on_chain(quad, 0) && first_shape > 0.0) return false;
+  if (is_on_chain(quad, 1) && second_shape > 0.0) return true;
   constexpr double kTie = 1e-9;
   return second_shape > first_shape + kTie;
 }

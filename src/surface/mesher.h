@@ -22,7 +22,8 @@ class Mesher {
   /// Places the vertices and splits quads whose corners moved, or all.
   void place(const Contour& contour, bool all);
 
-  /// The adapted vertices of triangles that are turned or flat about their link.
+  /// The adapted vertices of triangles that are turned or flat about their link, and those that would be if
+  /// a quad had its diagonal along the chain.
   std::vector<Anchor> turned() const;
 
   const TissueSurface& surface() const { return surface_; }
@@ -44,6 +45,8 @@ class Mesher {
   void add_triangle(const Contour& contour, const Polygon& polygon, int a, int b, int c);
   static int voxel_of(const Contour& contour, const Anchor& anchor);
   void split(const Quad& quad);
+  double worse_shape(const Quad& quad, int i) const;
+  bool is_on_chain(const Quad& quad, int i) const;
   bool prefers_second_diagonal(const Quad& quad) const;
 
   TissueSurface surface_;

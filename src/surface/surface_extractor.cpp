@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "adaptation.h"
 #include "cfem_cutting/surface/tissue_surface.h"
 #include "mesher.h"
@@ -16,13 +18,19 @@ struct SurfaceExtractor::State {
 
 namespace {
 
-/// Vertices at the ends of a trace and on detours leave their cells; where that turns a triangle, they stay.
-void unfold(Contour& contour, Mesher& mesher) {
-  constexpr int kTries = 3;
+/// Vertices at the ends of a trace, on detours and on the cut leave their cells; where that turns a triangle,
+/// they go back, those on the trace last.
+void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnCut& on_cut) {
+  constexpr int kTries = 5, kTriesBesideTrace = 2;
+  const auto on_trace = [&](const Anchor& anchor) {
+    return contour.cells()[anchor.cell].groups[anchor.group].adapted.has_value();
+  };
   for (int i = 0; i < kTries; ++i) {
     const std::vector<Anchor> turned = mesher.turned();
     if (turned.empty()) return;
-    for (const Anchor& anchor : turned) retract(contour, anchor.cell, anchor.group);
+    const bool all = i >= kTriesBesideTrace || std::all_of(turned.begin(), turned.end(), on_trace);
+    for (const Anchor& anchor : turned)
+      if (all || !on_trace(anchor)) retract(contour, anchor.cell, anchor.group, on_cut);
     mesher.place(contour, false);
   }
 }
@@ -40,10 +48,10 @@ const TissueSurface& SurfaceExtractor::extract(const FrontTrace& trace, bool ada
   const bool changed = s_->contour.update();
   if (changed || trace != s_->trace) {
     adapt(s_->contour, trace, adapts);
-    if (s_->freeze_next && adapts && s_->on_cut) end_on_cut(s_->contour, s_->on_cut);
+    if (s_->freeze_next && adapts && s_->on_cut) settle_on_cut(s_->contour, s_->on_cut);
     if (changed) s_->mesher.build(s_->contour);
     s_->mesher.place(s_->contour, changed);
-    unfold(s_->contour, s_->mesher);
+    unfold(s_->contour, s_->mesher, s_->on_cut);
     s_->trace = trace;
   }
   if (s_->freeze_next) freeze_cut_ends(s_->contour);

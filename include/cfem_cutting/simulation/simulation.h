@@ -53,7 +53,8 @@ class Simulation {
   /// How close crease and cut end are to the edge now; nothing where the blade touches no tissue.
   FrontFidelity front_fidelity() const;
   /// Distance of the cut faces from what the blade has swept (cut or dented only), undeformed, at their
-  /// triangles' corners and centres; what is farther than a voxel counts as a voxel.
+  /// triangles' centres, and at corners that the blade does not hold now (`front_fidelity` measures those);
+  /// what is farther than a voxel counts as a voxel.
   Distances cut_face_distances() const;
   /// Per vertex of a surface drawn now: displacement since the unit's reference state, m.
   std::vector<double> offsets(const DeformedSurface& surface) const;
