@@ -9,9 +9,11 @@ namespace cfem_cutting {
 /// @param moves false: only marks the groups on the front
 void adapt(Contour& contour, const FrontTrace& trace, bool moves);
 
-/// Draws a virtual intersection point back into its cell: one on the cut stays on it as far as the cell allows;
-/// the next time it goes back to the error function's minimum.
-void retract(Contour& contour, int cell, int group, const SurfaceExtractor::NearestOnCut& nearest);
+/// Draws a virtual intersection point back into its cell: one that is not on the trace stays on the cut as
+/// far as the cell allows.
+/// @param wholly one that is not on the trace goes back to the error function's minimum
+void retract(Contour& contour, int cell, int group, const SurfaceExtractor::NearestOnCut& nearest,
+             bool wholly);
 
 /// Puts vertices at cuts that have no virtual intersection point on the cut, and on the skin if it is there.
 void settle_on_cut(Contour& contour, const SurfaceExtractor::NearestOnCut& nearest);
