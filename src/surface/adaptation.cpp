@@ -2,12 +2,8 @@
 
 #include <algorithm>
 
-#include "front_chain.h"
-
 namespace cfem_cutting {
 namespace {
-
-constexpr double kOnCut = 0.02;  // of a voxel
 
 /// Where traces come to a group twice, the shorter way counts.
 void bind(SheetGroup& group, const ChainLink& link) {
@@ -37,7 +33,7 @@ Vec3 to_cut_and(const Contour& contour, Vec3 X, const Nearest& nearest, const Ot
 
 }  // namespace
 
-void adapt(Contour& contour, const FrontTrace& trace, bool moves) {
+void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set<Diagonal>& avoided) {
   for (DualCell& cell : contour.cells())
     for (SheetGroup& group : cell.groups) {
       group.adapted.reset();
@@ -47,7 +43,7 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves) {
   int number = 0;
   for (const Trace& part : trace) {
     ++number;
-    for (const ChainLink& link : find_chain(contour, part)) {
+    for (const ChainLink& link : find_chain(contour, part, avoided)) {
       SheetGroup& group = contour.cells()[link.cell].groups[link.group];
       group.chain = link.continues ? ++number : number += 2;
       if (moves) bind(group, link);

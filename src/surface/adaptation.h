@@ -2,12 +2,14 @@
 
 #include "cfem_cutting/surface/tissue_surface.h"
 #include "contour.h"
+#include "front_chain.h"
 
 namespace cfem_cutting {
 
 /// Influence domain adaptation: virtual intersection points on the trace, in place of the former ones.
 /// @param moves false: only marks the groups on the front
-void adapt(Contour& contour, const FrontTrace& trace, bool moves);
+/// @param avoided see find_chain
+void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set<Diagonal>& avoided);
 
 /// Draws a virtual intersection point back into its cell: one that is not on the trace stays on the cut as
 /// far as the cell allows.

@@ -19,9 +19,9 @@ constexpr double kBreak = 3.0;       // for vertices that nothing joins
 constexpr double kUncovered = 5.0;   // for each voxel of the trace's length, where one vertex stands for all
 constexpr double kNearest = 0.005;   // of a voxel, between vertices
 
-/// How far a vertex may be moved along the trace to its end, in voxels: where the edge ends in tissue, no
-/// link may be severed for some voxels before its end.
-constexpr double kReach = 2.0, kReachToEdgeEnd = 8.0;
+/// How far a vertex may be moved along the trace to its end, in voxels: at a stab's end no link may be
+/// severed for some voxels.
+constexpr double kReach = 8.0;
 
 /// A group that may become part of the chain.
 struct Node {
@@ -42,9 +42,10 @@ struct Node {
 
 class ChainFinder {
  public:
-  ChainFinder(const Contour& contour, const Trace& trace)
+  ChainFinder(const Contour& contour, const Trace& trace, const std::set<Diagonal>& avoided)
       : contour_(contour),
         trace_(trace),
+        avoided_(avoided),
         h_(contour.volume().lattice().spacing.minCoeff()),
         walk_(walk_dual_cells(contour.volume().lattice(), trace.points)) {
     double from = 0.0;
@@ -166,8 +167,13 @@ class ChainFinder {
       for (int i = 0; i < 4; ++i)
         if (!polygon.midpoint[i]) join(polygon, i, (i + 1) % 4);
       for (const int i : {0, 1})
-        if (!polygon.fan) join(polygon, i, i + 2);
+        if (!polygon.fan && !is_avoided(polygon, i)) join(polygon, i, i + 2);
     }
+  }
+
+  bool is_avoided(const Polygon& p, int i) const {
+    const auto group = [&](int k) { return std::pair(p.cell[k], p.group(contour_, k)); };
+    return avoided_.count(diagonal_between(group(i), group(i + 2))) > 0;
   }
 
   /// Lengths of pieces between two that could have had a vertex.
@@ -211,8 +217,6 @@ class ChainFinder {
     node.continues = continues;
   }
 
-  double reach(bool edge_ends) const { return (edge_ends ? kReachToEdgeEnd : kReach) * h_; }
-
   static void put_at_end(ChainLink& link, const Vec3& X, EdgeEnd edge_end) {
     link.X = X;
     link.edge_end = edge_end;
@@ -228,10 +232,10 @@ class ChainFinder {
       if (begins) break;
     }
     const double head = nodes_[first].along, tail = from_.back() - nodes_[end].along;
-    const bool short_tail = tail < reach(trace_.tip) && (chain.size() > 1 || tail <= head);
+    const bool short_tail = tail < kReach * h_ && (chain.size() > 1 || tail <= head);
     if (short_tail)
       put_at_end(chain.front(), trace_.points.back(), trace_.tip ? EdgeEnd::kTip : EdgeEnd::kNone);
-    if (head < reach(trace_.heel) && (chain.size() > 1 || !short_tail))
+    if (head < kReach * h_ && (chain.size() > 1 || !short_tail))
       put_at_end(chain.back(), trace_.points.front(), trace_.heel ? EdgeEnd::kHeel : EdgeEnd::kNone);
     std::reverse(chain.begin(), chain.end());
     return chain;
@@ -241,6 +245,7 @@ class ChainFinder {
 
   const Contour& contour_;
   const Trace& trace_;
+  const std::set<Diagonal>& avoided_;
   double h_;
   std::vector<FrontPiece> walk_;
   std::vector<double> from_;  // m, along the trace, where each piece begins; and the end
@@ -253,8 +258,9 @@ class ChainFinder {
 
 }  // namespace
 
-std::vector<ChainLink> find_chain(const Contour& contour, const Trace& trace) {
-  return ChainFinder(contour, trace).find();
+std::vector<ChainLink> find_chain(const Contour& contour, const Trace& trace,
+                                  const std::set<Diagonal>& avoided) {
+  return ChainFinder(contour, trace, avoided).find();
 }
 
 }  // namespace cfem_cutting

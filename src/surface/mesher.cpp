@@ -168,6 +168,15 @@ std::vector<Anchor> Mesher::turned() const {
   return anchors;
 }
 
+std::vector<std::pair<Anchor, Anchor>> Mesher::missed_diagonals() const {
+  std::vector<std::pair<Anchor, Anchor>> missed;
+  for (const Quad& quad : quads_)
+    for (const int i : {0, 1})
+      if (is_on_chain(quad, i) && !(worse_shape(quad, i) > 0.0))
+        missed.emplace_back(anchors_[quad.corners[i]], anchors_[quad.corners[i + 2]]);
+  return missed;
+}
+
 void Mesher::split(const Quad& quad) {
   const auto& [a, b, c, d] = quad.corners;
   const auto write = [&](int offset, int p, int q, int r) {

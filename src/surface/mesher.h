@@ -26,6 +26,9 @@ class Mesher {
   /// a quad had its diagonal along the chain.
   std::vector<Anchor> turned() const;
 
+  /// Those that the chain takes but the quads can't.
+  std::vector<std::pair<Anchor, Anchor>> missed_diagonals() const;
+
   const TissueSurface& surface() const { return surface_; }
 
  private:

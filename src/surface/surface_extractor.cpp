@@ -12,6 +12,8 @@ struct SurfaceExtractor::State {
   Contour contour;
   NearestOnCut on_cut;
   Mesher mesher;
+  void follow(const FrontTrace& next, bool adapts, bool all);
+
   FrontTrace trace;
   bool freeze_next = false;
 };
@@ -44,16 +46,26 @@ SurfaceExtractor::~SurfaceExtractor() = default;
 
 const TissueSurface& SurfaceExtractor::surface() const { return s_->mesher.surface(); }
 
+/// Where quads can't have their diagonals along the chain, it takes another way.
+void SurfaceExtractor::State::follow(const FrontTrace& next, bool adapts, bool all) {
+  constexpr int kTries = 3;
+  std::set<Diagonal> avoided;
+  for (int i = 0; i < kTries; ++i) {
+    adapt(contour, next, adapts, avoided);
+    if (freeze_next && adapts && on_cut) settle_on_cut(contour, on_cut);
+    mesher.place(contour, all && i == 0);
+    unfold(contour, mesher, on_cut);
+    const auto missed = mesher.missed_diagonals();
+    if (missed.empty()) break;
+    for (const auto& [a, b] : missed) avoided.insert(diagonal_between({a.cell, a.group}, {b.cell, b.group}));
+  }
+  trace = next;
+}
+
 const TissueSurface& SurfaceExtractor::extract(const FrontTrace& trace, bool adapts) {
   const bool changed = s_->contour.update();
-  if (changed || trace != s_->trace) {
-    adapt(s_->contour, trace, adapts);
-    if (s_->freeze_next && adapts && s_->on_cut) settle_on_cut(s_->contour, s_->on_cut);
-    if (changed) s_->mesher.build(s_->contour);
-    s_->mesher.place(s_->contour, changed);
-    unfold(s_->contour, s_->mesher, s_->on_cut);
-    s_->trace = trace;
-  }
+  if (changed) s_->mesher.build(s_->contour);
+  if (changed || trace != s_->trace) s_->follow(trace, adapts, changed);
   if (s_->freeze_next) freeze_cut_ends(s_->contour);
   s_->freeze_next = false;
   return surface();

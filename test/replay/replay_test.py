@@ -118,10 +118,14 @@ class Cuts(ReplayTest):
                     self.assertLess(summary["front"][part]["max_m"], 3e-5, (config, part))
 
     @needs_bags
-    def test_crease_is_on_the_edge_beside_an_earlier_cut(self):
-        summary = self.replay("strokes", "--bag", bag("repeated_strokes"))
-        self.assertGreater(summary["front"]["crease"]["samples"], 1000)
-        self.assertLess(summary["front"]["crease"]["max_m"], 4e-5)
+    def test_crease_and_cut_end_are_on_the_edge_beside_an_earlier_cut_and_in_a_stab(self):
+        for name in ("repeated_strokes", "stab_and_draw"):
+            summary = self.replay(name, "--bag", bag(name))
+            for part in ("crease", "cut_end"):
+                self.assertGreater(summary["front"][part]["samples"], 500, (name, part))
+                self.assertLess(summary["front"][part]["max_m"], 4e-5, (name, part))
+            self.assertEqual(summary["front"]["buried_samples"], 0, name)
+            self.assertEqual(summary["surface"]["flipped"] + summary["surface"]["degenerate"], 0, name)
 
     def test_crease_and_cut_end_are_on_the_edge_on_liver_and_bunny(self):
         # Straight edges in the tissue's frame: across the liver's front, across the bunny, and with the tip in its back.
@@ -130,7 +134,9 @@ class Cuts(ReplayTest):
         over = ["blade.edge=[[0,0,0],[0.1193,0.00597,0.01193]]", "blade.back=[0,1,0]"]
         cuts = (("liver", 0.008, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
                 ("liver", 0.004, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
+                ("bunny", 0.002, over, [(-0.06, 0.05, -0.012), (-0.06, 0.0, -0.012)]),
                 ("bunny", 0.004, over, [(-0.06, 0.05, -0.012), (-0.06, 0.0, -0.012)]),
+                ("bunny", 0.008, over, [(-0.06, 0.05, -0.012), (-0.06, 0.0, -0.012)]),
                 ("bunny", 0.004, tip, [(0.02, 0.036, 0.012), (0.02, 0.018, 0.01), (0.02, 0.017, -0.04)]))
         for config, voxel, blade, waypoints in cuts:
             write_path(self.path("poses.csv"), waypoints)
@@ -138,10 +144,11 @@ class Cuts(ReplayTest):
             summary = self.replay("%s%g" % (config, voxel), "--poses", self.path("poses.csv"), *settings,
                                   config=os.path.join(PACKAGE, "config", config + ".yaml"))
             for part in ("crease", "cut_end", "vertices"):
-                self.assertGreater(summary["front"][part]["samples"], 100, (config, voxel, part))
+                self.assertGreater(summary["front"][part]["samples"], 40, (config, voxel, part))
                 self.assertLess(summary["front"][part]["max_m"], 0.01 * voxel, (config, voxel, part))
             self.assertEqual(summary["surface"]["flipped"] + summary["surface"]["degenerate"], 0)
-            self.assertLess(summary["cut_faces"]["mean_m"], 0.1 * voxel)
+            self.assertGreater(summary["cut_faces"]["samples"], 100)
+            self.assertLess(summary["cut_faces"]["max_m"], 0.1 * voxel, (config, voxel))
 
     @needs_bags
     def test_bad_poses_in_a_bag_change_nothing(self):
