@@ -55,10 +55,12 @@ void retract(Contour& contour, int cell, int group, const Nearest& nearest, bool
   const Box room = room_in_cell(contour.volume().lattice(), contour.cells()[cell].index);
   SheetGroup& of_sheets = contour.cells()[cell].groups[group];
   const auto into_cell = [&](const Vec3& X) -> Vec3 { return X.cwiseMax(room.min()).cwiseMin(room.max()); };
-  of_sheets.settled = false;
   if (of_sheets.adapted) {
     of_sheets.adapted = into_cell(*of_sheets.adapted);
-  } else if (wholly) {
+    return;
+  }
+  of_sheets.settled = false;
+  if (wholly) {
     of_sheets.frozen.reset();
   } else if (of_sheets.frozen) {
     const Vec3 X = nearest ? to_cut_and(contour, *of_sheets.frozen, nearest, into_cell) : *of_sheets.frozen;
@@ -70,10 +72,11 @@ void settle_on_cut(Contour& contour, const Nearest& nearest) {
   for (DualCell& cell : contour.cells()) {
     if (cell.groups.size() != 1 || !cell.groups[0].severed) continue;  // several may not pass each other
     SheetGroup& group = cell.groups[0];
-    if (group.adapted || group.settled) continue;
+    if (group.settled || (group.adapted && group.cut_end)) continue;
     const auto onto_its_skin = [&](const Vec3& X) { return onto_skin(X, contour.volume(), cell, group); };
-    const Vec3 X = to_cut_and(contour, group.X(), nearest, onto_its_skin);
-    if (!is_near(contour, X, group.X())) group.frozen = X;
+    const Vec3 start = group.frozen.value_or(group.minimum);
+    const Vec3 X = to_cut_and(contour, start, nearest, onto_its_skin);
+    if (!is_near(contour, X, start)) group.frozen = X;
     group.settled = true;
   }
 }
