@@ -65,20 +65,36 @@ void unite_nodes(const std::vector<FacePair>& pairs, const std::vector<int>& par
     std::copy_n(number.of_corner.begin() + 8 * c, 8, coarse.nodes[c].begin());
 }
 
+/// One of the coarse corners that a fine one lies between.
+struct Share {
+  int corner;
+  std::uint32_t halvings;
+};
+
+/// Of the fine element's corner n (at 8 × octant + n).
+std::array<std::vector<Share>, 64> shares_of_corners() {
+  std::array<std::vector<Share>, 64> shares;
+  for (int i = 0; i < 64; ++i) {
+    const Eigen::Matrix<double, 8, 1> weights = corner_weights(corner_bits(i / 8), i % 8);
+    for (int m = 0; m < 8; ++m)
+      if (weights[m] > 0.0) shares[i].push_back({m, static_cast<std::uint32_t>(-std::ilogb(weights[m]))});
+  }
+  return shares;
+}
+
 Interpolation interpolate(const ElementSet& fine, const ElementSet& coarse, const std::vector<int>& parent) {
+  static const std::array<std::vector<Share>, 64> shares = shares_of_corners();
   std::vector<int> corner_of_node(fine.node_count, -1);
   for (int e = fine.size() - 1; e >= 0; --e)
     for (int n = 0; n < 8; ++n) corner_of_node[fine.nodes[e][n]] = 8 * e + n;
   Interpolation sums;
+  sums.first.reserve(fine.node_count + 1);
+  sums.terms.reserve(4 * static_cast<std::size_t>(fine.node_count));
   for (int corner : corner_of_node) {
     const int e = corner / 8, c = parent[e];
     const Vec3i offset = fine.block[e] - 2 * coarse.block[c];
-    const Eigen::Matrix<double, 8, 1> weights = corner_weights(offset, corner % 8);
-    for (int m = 0; m < 8; ++m) {
-      if (weights[m] == 0.0) continue;
-      sums.terms.push_back({static_cast<std::uint32_t>(coarse.nodes[c][m]),
-                            static_cast<std::uint32_t>(-std::ilogb(weights[m]))});
-    }
+    for (const Share& share : shares[8 * (offset.x() + 2 * (offset.y() + 2 * offset.z())) + corner % 8])
+      sums.terms.push_back({static_cast<std::uint32_t>(coarse.nodes[c][share.corner]), share.halvings});
     sums.first.push_back(static_cast<int>(sums.terms.size()));
   }
   return sums;
