@@ -45,7 +45,7 @@ void ElementProduct::find_diagonal(std::vector<NodeBlock>& blocks) const {
         *pool_,
         [&](int b, float* y) { cfem_cutting::find_diagonal(batch<float>(single_, b, nullptr, y), beside); },
         [&](int node, const Quad& sum) {
-          (beside ? blocks[node].beside : blocks[node].diagonal) = sum.head<3>();
+          (beside ? blocks[node].beside() : blocks[node].diagonal()) = sum.head<3>();
         });
 }
 

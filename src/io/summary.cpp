@@ -53,6 +53,12 @@ Json front_figures(const FrontFidelity& front) {
           {"buried_samples", front.buried}};
 }
 
+Json cut_face_figures(const CutFaceDistances& distances) {
+  Json json = figures(distances.faces);
+  json["held_corners"] = figures(distances.held_corners);
+  return json;
+}
+
 /// The smallest value that this part of the values does not exceed (nearest rank).
 double percentile(const std::vector<double>& sorted, double part) {
   if (sorted.empty()) return 0.0;
@@ -117,7 +123,7 @@ void write_summary(const OutputFolder& folder, const Simulation& simulation, con
               {"surface", surface_figures(simulation.surface())},
               {"blade_distance", blade_distance(statistics.front)},
               {"front", front_figures(statistics.front)},
-              {"cut_faces", figures(simulation.cut_face_distances())},
+              {"cut_faces", cut_face_figures(simulation.cut_face_distances())},
               {"warnings", warnings}});
 }
 

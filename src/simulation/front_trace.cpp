@@ -8,11 +8,9 @@
 namespace cfem_cutting {
 namespace {
 
-// Along the edge, of contact points' spacing:
-constexpr double kDentReach = 4.0;
-constexpr double kCrowded =
-    0.25;  // tissue that slides has brought them together, and may bring them past each other
-
+// Along the edge, of contact points' spacing: where a dent ends; and how near a point is to the one before to
+// be left out, as tissue that slides brings them together and past each other.
+constexpr double kDentReach = 4.0, kCrowded = 0.25;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// The part of a segment from a point in tissue on that is in tissue, tested in steps of 1/16.

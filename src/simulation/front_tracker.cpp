@@ -85,7 +85,8 @@ std::optional<FrontEnd> FrontTracker::end_beyond(double along, double until, int
   if (tissue_voxel_at(volume, end.X_at_start) < 0) return std::nullopt;
   end.X = end.X_at_start;
   int i = step > 0 ? next : before;
-  for (; inside(i) && step * (until - at[i]) > 0.0; i += step) {
+  const double rounding = 1e-9 * at.back();
+  for (; inside(i) && step * (until - at[i]) > rounding; i += step) {
     end.X = material_[i]->X;
     end.way.push_back(end.X);
   }

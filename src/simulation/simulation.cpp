@@ -61,23 +61,24 @@ FrontFidelity Simulation::front_fidelity() const {
                        s_->volume.lattice().spacing.minCoeff());
 }
 
-Distances Simulation::cut_face_distances() const {
+CutFaceDistances Simulation::cut_face_distances() const {
   const double voxel = s_->volume.lattice().spacing.maxCoeff();
-  Distances distances;
   CutSurface uncut(voxel);  // swept since the last fracture
   uncut.add(s_->volume, SweptTrail(s_->trail).take());
-  const auto add = [&](const Vec3& X) {
-    distances.add(std::min({voxel, s_->cut_surface.distance(X, voxel), uncut.distance(X, voxel)}));
+  const auto distance = [&](const Vec3& X) {
+    return std::min({voxel, s_->cut_surface.distance(X, voxel), uncut.distance(X, voxel)});
   };
+  CutFaceDistances distances;
   for (std::size_t t = 0; t < surface().triangles.size(); ++t) {
     if (!surface().cut[t]) continue;
     Vec3 centre = Vec3::Zero();
     for (const int v : surface().triangles[t]) {
       const SurfaceVertex& vertex = surface().vertices[v];
       centre += vertex.X / 3.0;
-      if (!vertex.on_front) add(vertex.X);
+      const bool held = vertex.on_front && s_->config.surface.influence_domain_adaptation;
+      (held ? distances.held_corners : distances.faces).add(distance(vertex.X));
     }
-    add(centre);
+    distances.faces.add(distance(centre));
   }
   return distances;
 }

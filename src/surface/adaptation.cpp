@@ -19,16 +19,18 @@ bool is_near(const Contour& contour, const Vec3& a, const Vec3& b) {
   return (a - b).norm() < kNear * contour.volume().lattice().spacing.minCoeff();
 }
 
-/// From X to the cut and by turns to what `other` leads to, and back; X if there is no cut near.
+/// From X to the cut and by turns to what `other` leads to, and back; nothing if there is no cut near.
 template <typename Other>
-Vec3 to_cut_and(const Contour& contour, Vec3 X, const Nearest& nearest, const Other& other) {
+std::optional<Vec3> to_cut_and(const Contour& contour, const Vec3& X, const Nearest& nearest,
+                               const Other& other) {
   constexpr int kTurns = 8;
-  for (int i = 0; i < kTurns; ++i) {
-    const std::optional<Vec3> on_cut = nearest(i == 0 ? X : other(X));
-    if (!on_cut || is_near(contour, X, *on_cut)) break;
-    X = *on_cut;
+  std::optional<Vec3> at = nearest(X);
+  for (int i = 1; i < kTurns && at; ++i) {
+    const std::optional<Vec3> next = nearest(other(*at));
+    if (!next || is_near(contour, *at, *next)) break;
+    at = next;
   }
-  return X;
+  return at;
 }
 
 }  // namespace
@@ -51,33 +53,29 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set
   }
 }
 
-void retract(Contour& contour, int cell, int group, const Nearest& nearest, bool wholly) {
+void retract(Contour& contour, int cell, int group, const Nearest& nearest) {
   const Box room = room_in_cell(contour.volume().lattice(), contour.cells()[cell].index);
   SheetGroup& of_sheets = contour.cells()[cell].groups[group];
   const auto into_cell = [&](const Vec3& X) -> Vec3 { return X.cwiseMax(room.min()).cwiseMin(room.max()); };
   if (of_sheets.adapted) {
     of_sheets.adapted = into_cell(*of_sheets.adapted);
-    return;
-  }
-  of_sheets.settled = false;
-  if (wholly) {
-    of_sheets.frozen.reset();
   } else if (of_sheets.frozen) {
-    const Vec3 X = nearest ? to_cut_and(contour, *of_sheets.frozen, nearest, into_cell) : *of_sheets.frozen;
-    of_sheets.frozen = into_cell(X);
+    const Vec3& X = *of_sheets.frozen;
+    of_sheets.frozen = into_cell(nearest ? to_cut_and(contour, X, nearest, into_cell).value_or(X) : X);
+    of_sheets.settled = false;
   }
 }
 
 void settle_on_cut(Contour& contour, const Nearest& nearest) {
   for (DualCell& cell : contour.cells()) {
-    if (cell.groups.size() != 1 || !cell.groups[0].severed) continue;  // several may not pass each other
+    if (cell.groups.size() != 1 || !cell.groups[0].severed) continue;
     SheetGroup& group = cell.groups[0];
     if (group.settled || (group.adapted && group.cut_end)) continue;
     const auto onto_its_skin = [&](const Vec3& X) { return onto_skin(X, contour.volume(), cell, group); };
     const Vec3 start = group.frozen.value_or(group.minimum);
-    const Vec3 X = to_cut_and(contour, start, nearest, onto_its_skin);
-    if (!is_near(contour, X, start)) group.frozen = X;
-    group.settled = true;
+    const std::optional<Vec3> X = to_cut_and(contour, start, nearest, onto_its_skin);
+    group.settled = X.has_value();
+    if (X && !is_near(contour, *X, start)) group.frozen = X;
   }
 }
 

@@ -13,11 +13,10 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set
 
 /// Draws a virtual intersection point back into its cell: one that is not on the trace stays on the cut as
 /// far as the cell allows.
-/// @param wholly one that is not on the trace goes back to the error function's minimum
-void retract(Contour& contour, int cell, int group, const SurfaceExtractor::NearestOnCut& nearest,
-             bool wholly);
+void retract(Contour& contour, int cell, int group, const SurfaceExtractor::NearestOnCut& nearest);
 
-/// Puts vertices at cuts that have no virtual intersection point on the cut, and on the skin if it is there.
+/// Puts vertices at cuts, but ends on the trace, on the cut, and there on the skin as far as they can be.
+/// Cells with other cuts are left alone, as vertices might pass each other.
 void settle_on_cut(Contour& contour, const SurfaceExtractor::NearestOnCut& nearest);
 
 /// Keeps the virtual intersection points at cuts.

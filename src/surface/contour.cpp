@@ -6,7 +6,7 @@
 namespace cfem_cutting {
 namespace {
 
-/// A cut's end stays where it was put as long as its sheets stay the same.
+/// Vertices at cuts stay where they were put as long as their sheets stay the same.
 void keep_virtual_points(const DualCell& before, DualCell& after) {
   for (SheetGroup& group : after.groups)
     for (const SheetGroup& old : before.groups)

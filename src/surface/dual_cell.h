@@ -42,8 +42,9 @@ struct SheetGroup {
   EdgeEnd edge_end = EdgeEnd::kNone;
   bool cut_end = false;         ///< both sides of a severed link are in one sheet: the cut ends here
   Vec3 minimum = Vec3::Zero();  ///< m, of the error function
-  std::optional<Vec3> frozen;   ///< m, a cut end's virtual intersection point that was kept
-  bool settled = false;         ///< it lies on what the blade has cut
+  std::optional<Vec3>
+      frozen;            ///< m, a virtual intersection point that stays: a former trace's, or on the cut
+  bool settled = false;  ///< what the blade has cut was found near it, and it was put there
   std::optional<Vec3> adapted;  ///< m, the virtual intersection point on the present trace
   const Vec3& X() const { return adapted ? *adapted : frozen ? *frozen : minimum; }
 };

@@ -41,10 +41,10 @@ class ErrorFunction {
 };
 
 /// The minimum of skin and cut planes in a box that holds the crossings: on the cut, if the skin can be near
-/// it there; else the skin comes first and the cut's planes decide where it leaves a choice (a cut must not
-/// move the skin far: else the volume changes by up to 2.5 %). Near the box's walls the minimum gives way
-/// along directions that the planes hardly fix: those of a cut, and of skin with creases under 33°. Either
-/// may be empty, not both.
+/// it there; else the skin comes first and the cut's planes decide where it leaves a choice (cuts known by
+/// their links alone must not move the skin far: else the volume changes by up to 2.5 %). Near the box's
+/// walls the minimum gives way along directions that the planes hardly fix: those of a cut, and of skin with
+/// creases under 33°. Either may be empty, not both.
 Vec3 minimum(const ErrorFunction& skin, const ErrorFunction& cut, const Box& room);
 
 /// The mean of the crossings, as far as a box allows.

@@ -19,10 +19,6 @@ constexpr double kBreak = 3.0;       // for vertices that nothing joins
 constexpr double kUncovered = 5.0;   // for each voxel of the trace's length, where one vertex stands for all
 constexpr double kNearest = 0.005;   // of a voxel, between vertices
 
-/// How far a vertex may be moved along the trace to its end, in voxels: at a stab's end no link may be
-/// severed for some voxels.
-constexpr double kReach = 8.0;
-
 /// A group that may become part of the chain.
 struct Node {
   int cell = -1, group = -1;
@@ -232,10 +228,10 @@ class ChainFinder {
       if (begins) break;
     }
     const double head = nodes_[first].along, tail = from_.back() - nodes_[end].along;
-    const bool short_tail = tail < kReach * h_ && (chain.size() > 1 || tail <= head);
-    if (short_tail)
+    const bool alone = chain.size() == 1;
+    if (!alone || tail <= head)
       put_at_end(chain.front(), trace_.points.back(), trace_.tip ? EdgeEnd::kTip : EdgeEnd::kNone);
-    if (head < kReach * h_ && (chain.size() > 1 || !short_tail))
+    if (!alone || tail > head)
       put_at_end(chain.back(), trace_.points.front(), trace_.heel ? EdgeEnd::kHeel : EdgeEnd::kNone);
     std::reverse(chain.begin(), chain.end());
     return chain;

@@ -137,14 +137,15 @@ void Mesher::place(const Contour& contour, bool all) {
   }
 }
 
-/// What a vertex follows. A virtual intersection point may be far from its cell: where the tissue around is
-/// whole, it goes with the tissue at its place, as the blade's contact point there does.
+/// What a vertex follows. A virtual intersection point may be far from its cell: where its sheet alone is
+/// there (a crease, or a cut's end), it goes with the tissue at its place, as the blade's contact point does.
 int Mesher::voxel_of(const Contour& contour, const Anchor& anchor) {
   const DualCell& cell = contour.cells()[anchor.cell];
-  const std::optional<Vec3>& X = cell.groups[anchor.group].adapted;
+  const SheetGroup& group = cell.groups[anchor.group];
   const auto is_in_group = [&](const Sheet& sheet) { return sheet.group == anchor.group; };
-  if (!X || std::count_if(cell.sheets.begin(), cell.sheets.end(), is_in_group) > 1) return anchor.voxel;
-  const int voxel = tissue_voxel_at(contour.volume(), *X);
+  const bool moved = group.adapted || group.frozen;
+  if (!moved || std::count_if(cell.sheets.begin(), cell.sheets.end(), is_in_group) > 1) return anchor.voxel;
+  const int voxel = tissue_voxel_at(contour.volume(), group.X());
   return voxel >= 0 ? voxel : anchor.voxel;
 }
 
@@ -159,12 +160,6 @@ std::vector<Anchor> Mesher::turned() const {
     for (const int v : {a, b, c})
       if (adapted_[v]) anchors.push_back(anchors_[v]);
   }
-  for (const Quad& quad : quads_)
-    for (const int i : {0, 1}) {
-      if (!is_on_chain(quad, i) || worse_shape(quad, i) > 0.0) continue;
-      for (const int v : quad.corners)
-        if (adapted_[v] && chain_[v] < 0) anchors.push_back(anchors_[v]);
-    }
   return anchors;
 }
 

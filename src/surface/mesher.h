@@ -22,8 +22,7 @@ class Mesher {
   /// Places the vertices and splits quads whose corners moved, or all.
   void place(const Contour& contour, bool all);
 
-  /// The adapted vertices of triangles that are turned or flat about their link, and those that would be if
-  /// a quad had its diagonal along the chain.
+  /// The adapted vertices of triangles that are turned or flat about their link.
   std::vector<Anchor> turned() const;
 
   /// Those that the chain takes but the quads can't.

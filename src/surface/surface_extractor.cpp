@@ -23,7 +23,7 @@ namespace {
 /// Vertices at the ends of a trace, on detours and on the cut leave their cells; where that turns a triangle,
 /// they go back, those on the trace last.
 void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnCut& on_cut) {
-  constexpr int kTries = 4;
+  constexpr int kTries = 3;
   const auto on_trace = [&](const Anchor& anchor) {
     return contour.cells()[anchor.cell].groups[anchor.group].adapted.has_value();
   };
@@ -32,7 +32,7 @@ void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnC
     if (turned.empty()) return;
     const bool all = i > 0 || std::all_of(turned.begin(), turned.end(), on_trace);
     for (const Anchor& anchor : turned)
-      if (all || !on_trace(anchor)) retract(contour, anchor.cell, anchor.group, on_cut, i + 1 == kTries);
+      if (all || !on_trace(anchor)) retract(contour, anchor.cell, anchor.group, on_cut);
     mesher.place(contour, false);
   }
 }
@@ -65,7 +65,7 @@ void SurfaceExtractor::State::follow(const FrontTrace& next, bool adapts, bool a
 const TissueSurface& SurfaceExtractor::extract(const FrontTrace& trace, bool adapts) {
   const bool changed = s_->contour.update();
   if (changed) s_->mesher.build(s_->contour);
-  if (changed || trace != s_->trace) s_->follow(trace, adapts, changed);
+  if (changed || s_->freeze_next || trace != s_->trace) s_->follow(trace, adapts, changed);
   if (s_->freeze_next) freeze_cut_ends(s_->contour);
   s_->freeze_next = false;
   return surface();

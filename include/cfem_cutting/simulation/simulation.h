@@ -24,6 +24,13 @@ struct StepInput {
 
 /// Cutting simulation of one tissue with one blade (Jia et al., Pacific Graphics 2019, Algorithm 1),
 /// ROS-free.
+/// Of cut faces from what the blade has swept (cut or dented only), undeformed, m; what is farther than a
+/// voxel counts as a voxel.
+struct CutFaceDistances {
+  Distances faces;         ///< at their triangles' centres, and at corners that the blade does not hold
+  Distances held_corners;  ///< at those that it holds now, which lie on its trace
+};
+
 class Simulation {
  public:
   /// @param shape the tissue
@@ -52,10 +59,7 @@ class Simulation {
   DeformedSurface deformed_surface() const;
   /// How close crease and cut end are to the edge now; nothing where the blade touches no tissue.
   FrontFidelity front_fidelity() const;
-  /// Distance of the cut faces from what the blade has swept (cut or dented only), undeformed, at their
-  /// triangles' centres, and at corners that the blade does not hold now (`front_fidelity` measures those);
-  /// what is farther than a voxel counts as a voxel.
-  Distances cut_face_distances() const;
+  CutFaceDistances cut_face_distances() const;
   /// Per vertex of a surface drawn now: displacement since the unit's reference state, m.
   std::vector<double> offsets(const DeformedSurface& surface) const;
   /// Displacements of the configured probes, m.

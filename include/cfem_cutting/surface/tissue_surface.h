@@ -18,7 +18,8 @@ enum class EdgeEnd : std::uint8_t { kNone, kHeel, kTip };
 /// A vertex of the tissue's surface. It follows the element of its voxel.
 struct SurfaceVertex {
   Vec3 X;      ///< m, material position
-  int voxel;   ///< a linked voxel of the component in its dual cell
+  int voxel;   ///< whose element it follows: of its component in the dual cell, or at X on a crease or cut's
+               ///< end
   Vec3i cell;  ///< dual cell: the cube between the centres of voxels cell … cell + (1, 1, 1)
   bool on_front =
       false;             ///< the front passes its cell: with adaptation it lies on the trace, and on the edge
@@ -60,8 +61,7 @@ class SurfaceExtractor {
   using NearestOnCut = std::function<std::optional<Vec3>(const Vec3&)>;
 
   /// @param volume must outlive the extractor
-  /// @param on_cut where cuts end beside the front, which is behind the blade's heel and tip; empty: anywhere
-  /// in their cells
+  /// @param on_cut where vertices at cuts go at each fracture; empty: anywhere in their cells
   explicit SurfaceExtractor(const VoxelVolume& volume, NearestOnCut on_cut = {});
   ~SurfaceExtractor();
 
@@ -73,8 +73,8 @@ class SurfaceExtractor {
 
   /// Keeps the present virtual intersection points of sheets in which a cut ends when the front moves on, and
   /// those that the next `extract` makes: a cut ends where the blade was, until the cut goes on through the
-  /// same sheets. With adaptation, ends of cuts beside the front go to the cut then, where a cell has no
-  /// other cut.
+  /// same sheets. With adaptation, the other vertices at cuts go to what the blade has cut then, and there to
+  /// the skin if they are at a rim, where a cell has no other cut.
   void freeze();
 
   const TissueSurface& surface() const;
