@@ -53,12 +53,15 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set
   }
 }
 
-void retract(Contour& contour, int cell, int group, const Nearest& nearest) {
+void retract(Contour& contour, int cell, int group, const Nearest& nearest, bool wholly) {
   const Box room = room_in_cell(contour.volume().lattice(), contour.cells()[cell].index);
   SheetGroup& of_sheets = contour.cells()[cell].groups[group];
   const auto into_cell = [&](const Vec3& X) -> Vec3 { return X.cwiseMax(room.min()).cwiseMin(room.max()); };
   if (of_sheets.adapted) {
     of_sheets.adapted = into_cell(*of_sheets.adapted);
+  } else if (wholly) {
+    of_sheets.frozen.reset();
+    of_sheets.settled = false;
   } else if (of_sheets.frozen) {
     const Vec3& X = *of_sheets.frozen;
     of_sheets.frozen = into_cell(nearest ? to_cut_and(contour, X, nearest, into_cell).value_or(X) : X);

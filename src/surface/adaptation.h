@@ -13,7 +13,9 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set
 
 /// Draws a virtual intersection point back into its cell: one that is not on the trace stays on the cut as
 /// far as the cell allows.
-void retract(Contour& contour, int cell, int group, const SurfaceExtractor::NearestOnCut& nearest);
+/// @param wholly one that is not on the trace goes back to the error function's minimum
+void retract(Contour& contour, int cell, int group, const SurfaceExtractor::NearestOnCut& nearest,
+             bool wholly);
 
 /// Puts vertices at cuts, but ends on the trace, on the cut, and there on the skin as far as they can be.
 /// Cells with other cuts are left alone, as vertices might pass each other.

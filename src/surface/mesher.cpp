@@ -149,17 +149,27 @@ int Mesher::voxel_of(const Contour& contour, const Anchor& anchor) {
   return voxel >= 0 ? voxel : anchor.voxel;
 }
 
+bool Mesher::is_turned(int triangle) const {
+  const auto& [a, b, c] = surface_.triangles[triangle];
+  const Vec3 &A = surface_.vertices[a].X, &B = surface_.vertices[b].X, &C = surface_.vertices[c].X;
+  const int direction = direction_[triangle];
+  return !(direction % 2 ? shape(A, B, C, direction / 2) > 0.0 : shape(A, C, B, direction / 2) > 0.0);
+}
+
 std::vector<Anchor> Mesher::turned() const {
   std::vector<Anchor> anchors;
-  for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-    const auto& [a, b, c] = surface_.triangles[t];
-    if (!adapted_[a] && !adapted_[b] && !adapted_[c]) continue;
-    const Vec3 &A = surface_.vertices[a].X, &B = surface_.vertices[b].X, &C = surface_.vertices[c].X;
-    const double turn = shape(A, B, C, direction_[t] / 2);
-    if (direction_[t] % 2 ? turn > 0.0 : shape(A, C, B, direction_[t] / 2) > 0.0) continue;
-    for (const int v : {a, b, c})
+  const auto any_adapted = [&](const auto& corners) {
+    return std::any_of(corners.begin(), corners.end(), [&](int v) { return adapted_[v] != 0; });
+  };
+  const auto take = [&](const auto& corners) {
+    for (const int v : corners)
       if (adapted_[v]) anchors.push_back(anchors_[v]);
-  }
+  };
+  for (std::size_t t = 0; t < surface_.triangles.size(); ++t)
+    if (any_adapted(surface_.triangles[t]) && is_turned(static_cast<int>(t))) take(surface_.triangles[t]);
+  for (const Quad& quad : quads_)  // the corner opposite may have left no better diagonal
+    if (any_adapted(quad.corners) && (is_turned(quad.first_triangle) || is_turned(quad.first_triangle + 1)))
+      take(quad.corners);
   return anchors;
 }
 

@@ -22,7 +22,7 @@ class Mesher {
   /// Places the vertices and splits quads whose corners moved, or all.
   void place(const Contour& contour, bool all);
 
-  /// The adapted vertices of triangles that are turned or flat about their link.
+  /// The adapted vertices of triangles that are turned or flat about their link, and of their quads.
   std::vector<Anchor> turned() const;
 
   /// Those that the chain takes but the quads can't.
@@ -46,6 +46,7 @@ class Mesher {
   int add_fixed_vertex(const Vec3& X, int voxel, const Vec3i& cell);
   void add_triangle(const Contour& contour, const Polygon& polygon, int a, int b, int c);
   static int voxel_of(const Contour& contour, const Anchor& anchor);
+  bool is_turned(int triangle) const;
   void split(const Quad& quad);
   double worse_shape(const Quad& quad, int i) const;
   bool is_on_chain(const Quad& quad, int i) const;

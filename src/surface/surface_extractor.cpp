@@ -23,16 +23,16 @@ namespace {
 /// Vertices at the ends of a trace, on detours and on the cut leave their cells; where that turns a triangle,
 /// they go back, those on the trace last.
 void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnCut& on_cut) {
-  constexpr int kTries = 3;
+  constexpr int kTries = 4, kBesideTrace = 2;
   const auto on_trace = [&](const Anchor& anchor) {
     return contour.cells()[anchor.cell].groups[anchor.group].adapted.has_value();
   };
   for (int i = 0; i < kTries; ++i) {
     const std::vector<Anchor> turned = mesher.turned();
     if (turned.empty()) return;
-    const bool all = i > 0 || std::all_of(turned.begin(), turned.end(), on_trace);
+    const bool all = i >= kBesideTrace || std::all_of(turned.begin(), turned.end(), on_trace);
     for (const Anchor& anchor : turned)
-      if (all || !on_trace(anchor)) retract(contour, anchor.cell, anchor.group, on_cut);
+      if (all || !on_trace(anchor)) retract(contour, anchor.cell, anchor.group, on_cut, i > 0);
     mesher.place(contour, false);
   }
 }

@@ -135,7 +135,6 @@ class Cuts(ReplayTest):
         cuts = (("liver", 0.008, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
                 ("liver", 0.004, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
                 ("bunny", 0.004, over, [(-0.06, 0.05, -0.012), (-0.06, 0.0, -0.012)]),
-                ("bunny", 0.008, over, [(-0.06, 0.05, -0.012), (-0.06, 0.0, -0.012)]),
                 ("bunny", 0.004, tip, [(0.02, 0.036, 0.012), (0.02, 0.018, 0.01), (0.02, 0.017, -0.04)]))
         for config, voxel, blade, waypoints in cuts:
             write_path(self.path("poses.csv"), waypoints)
@@ -143,7 +142,7 @@ class Cuts(ReplayTest):
             summary = self.replay("%s%g" % (config, voxel), "--poses", self.path("poses.csv"), *settings,
                                   config=os.path.join(PACKAGE, "config", config + ".yaml"))
             for part in ("crease", "cut_end", "vertices"):
-                self.assertGreater(summary["front"][part]["samples"], 40, (config, voxel, part))
+                self.assertGreater(summary["front"][part]["samples"], 100, (config, voxel, part))
                 self.assertLess(summary["front"][part]["max_m"], 0.01 * voxel, (config, voxel, part))
             self.assertEqual(summary["surface"]["flipped"] + summary["surface"]["degenerate"], 0)
             self.assertGreater(summary["cut_faces"]["samples"], 100)
