@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "cfem_cutting/geometry/polyline.h"
+#include "cfem_cutting/volume/inside.h"
 #include "surface/tissue.h"
 
 namespace cfem_cutting {
@@ -108,6 +109,50 @@ double farthest_end(bool on_cut) {
 TEST(CutEnd, beside_the_front_lies_on_the_cut) {
   EXPECT_LT(farthest_end(true), 1e-9);
   EXPECT_GT(farthest_end(false), 0.1);
+}
+
+TEST(CutEnd, follows_the_edge_to_its_tip_where_no_link_is_severed) {
+  VoxelVolume volume = box_volume({8, 8, 6});
+  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()}, [](const Vec3& X) { return X.y() > 5.5 && X.z() > 2.8; });
+  const Vec3 tip(4.2, 1.3, 2.8);
+  Trace trace(line({4.2, 8.0, 2.8}, tip));
+  trace.tip = true;
+  SurfaceExtractor extractor(volume);
+  const TissueSurface& surface = extractor.extract({trace});
+  const auto at_tip = std::find_if(surface.vertices.begin(), surface.vertices.end(),
+                                   [](const SurfaceVertex& v) { return v.edge_end == EdgeEnd::kTip; });
+  ASSERT_NE(at_tip, surface.vertices.end());
+  EXPECT_EQ(at_tip->X, tip);
+  EXPECT_EQ(at_tip->voxel, tissue_voxel_at(volume, tip)) << "it follows the tissue at the tip";
+  expect_chain(surface, {0, 1, 0});
+  expect_closed_and_manifold(surface.rest(), "cut end at the tip");
+  EXPECT_EQ(count_flipped(surface), 0);
+  EXPECT_NEAR(enclosed_volume(surface.rest()), 384.0, 1e-9);
+}
+
+/// How far cut vertices are from their plane, at most. It leaves the skin at y = 6 beyond the cells whose
+/// links it severs there.
+double farthest_from_plane(bool on_cut) {
+  VoxelVolume volume = box_volume({8, 6, 6});
+  const Vec3 normal = Vec3(1.0, 0.35, 0.0).normalized(), point(4.445, 0.0, 0.0);
+  sever(volume, Plane{point, normal});
+  const auto nearest = [&](const Vec3& X) -> Vec3 { return X - normal.dot(X - point) * normal; };
+  SurfaceExtractor extractor(volume, on_cut ? SurfaceExtractor::NearestOnCut(nearest) : nullptr);
+  extractor.freeze();
+  const TissueSurface& surface = extractor.extract({});
+  expect_closed_and_manifold(surface.rest(), "tilted cut");
+  EXPECT_EQ(count_flipped(surface), 0);
+  EXPECT_NEAR(enclosed_volume(surface.rest()), 288.0, 0.1);
+  double farthest = 0.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    for (const int v : surface.triangles[t])
+      if (surface.cut[t]) farthest = std::max(farthest, std::abs(normal.dot(surface.vertices[v].X - point)));
+  return farthest;
+}
+
+TEST(Rim, lies_on_the_cut_beyond_its_cell) {
+  EXPECT_LT(farthest_from_plane(true), 0.02);
+  EXPECT_GT(farthest_from_plane(false), 0.1);
 }
 
 TEST(Deform, doubles_the_rim_and_draws_bound_vertices_on_the_front) {
