@@ -39,6 +39,7 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set
   for (DualCell& cell : contour.cells())
     for (SheetGroup& group : cell.groups) {
       group.adapted.reset();
+      group.drawn_back.reset();
       group.chain = -1;
       group.edge_end = EdgeEnd::kNone;
     }
@@ -53,40 +54,41 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set
   }
 }
 
-void retract(Contour& contour, int cell, int group, const Nearest& nearest, bool wholly) {
+bool draw_back(Contour& contour, int cell, int group, const Nearest& nearest) {
   const Box room = room_in_cell(contour.volume().lattice(), contour.cells()[cell].index);
   SheetGroup& of_sheets = contour.cells()[cell].groups[group];
   const auto into_cell = [&](const Vec3& X) -> Vec3 { return X.cwiseMax(room.min()).cwiseMin(room.max()); };
+  const Vec3 from = of_sheets.X();
   if (of_sheets.adapted) {
-    of_sheets.adapted = into_cell(*of_sheets.adapted);
-  } else if (wholly) {
-    of_sheets.frozen.reset();
-    of_sheets.settled = false;
-  } else if (of_sheets.frozen) {
-    const Vec3& X = *of_sheets.frozen;
-    of_sheets.frozen = into_cell(nearest ? to_cut_and(contour, X, nearest, into_cell).value_or(X) : X);
-    of_sheets.settled = false;
+    of_sheets.drawn_back = into_cell(*of_sheets.adapted);
+  } else if (of_sheets.drawn_back) {
+    of_sheets.drawn_back = of_sheets.minimum;
+  } else {
+    of_sheets.drawn_back =
+        into_cell(nearest ? to_cut_and(contour, from, nearest, into_cell).value_or(from) : from);
   }
+  return of_sheets.X() != from;
 }
 
 void settle_on_cut(Contour& contour, const Nearest& nearest) {
   for (DualCell& cell : contour.cells()) {
     if (cell.groups.size() != 1 || !cell.groups[0].severed) continue;
     SheetGroup& group = cell.groups[0];
-    if (group.settled || (group.adapted && group.cut_end)) continue;
+    const bool held = group.adapted && group.cut_end;
+    if (group.settled || (held && !group.skin)) continue;
     const auto onto_its_skin = [&](const Vec3& X) { return onto_skin(X, contour.volume(), cell, group); };
-    const Vec3 start = group.frozen.value_or(group.minimum);
+    const Vec3 start = held ? group.X() : group.frozen.value_or(group.minimum);
     const std::optional<Vec3> X = to_cut_and(contour, start, nearest, onto_its_skin);
     group.settled = X.has_value();
     if (X && !is_near(contour, *X, start)) group.frozen = X;
   }
 }
 
-void freeze_cut_ends(Contour& contour) {
+void freeze_cut_ends(Contour& contour, bool at_skin) {
   for (DualCell& cell : contour.cells())
     for (SheetGroup& group : cell.groups)
-      if (group.cut_end && group.adapted) {
-        group.frozen = group.adapted;
+      if (group.cut_end && group.adapted && (at_skin || !group.skin)) {
+        group.frozen = group.X();
         group.settled = false;
       }
 }

@@ -10,7 +10,10 @@ namespace {
 void keep_virtual_points(const DualCell& before, DualCell& after) {
   for (SheetGroup& group : after.groups)
     for (const SheetGroup& old : before.groups)
-      if (old.sides == group.sides) group.frozen = old.frozen;
+      if (old.sides == group.sides) {
+        group.frozen = old.frozen;
+        group.settled = old.settled;
+      }
 }
 
 }  // namespace

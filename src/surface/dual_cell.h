@@ -40,13 +40,13 @@ struct SheetGroup {
   bool severed = false;  ///< holds a severed link
   int chain = -1;        ///< number in the chain along the front; neighbours have consecutive ones
   EdgeEnd edge_end = EdgeEnd::kNone;
-  bool cut_end = false;         ///< both sides of a severed link are in one sheet: the cut ends here
-  Vec3 minimum = Vec3::Zero();  ///< m, of the error function
-  std::optional<Vec3>
-      frozen;            ///< m, a virtual intersection point that stays: a former trace's, or on the cut
-  bool settled = false;  ///< what the blade has cut was found near it, and it was put there
-  std::optional<Vec3> adapted;  ///< m, the virtual intersection point on the present trace
-  const Vec3& X() const { return adapted ? *adapted : frozen ? *frozen : minimum; }
+  bool cut_end = false;            ///< both sides of a severed link are in one sheet: the cut ends here
+  Vec3 minimum = Vec3::Zero();     ///< m, of the error function
+  std::optional<Vec3> frozen;      ///< m, a virtual point that stays: of a former trace, or on the cut
+  bool settled = false;            ///< it was put on what the blade has cut
+  std::optional<Vec3> adapted;     ///< m, the virtual intersection point on the present trace
+  std::optional<Vec3> drawn_back;  ///< m, where it is instead as long as a triangle would be turned
+  const Vec3& X() const { return drawn_back ? *drawn_back : adapted ? *adapted : frozen ? *frozen : minimum; }
 };
 
 /// The cube between eight voxel centres and the surface's sheets in it.

@@ -28,6 +28,7 @@ double shape(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
 void Mesher::build(const Contour& contour) {
   surface_ = {};
   quads_.clear();
+  fan_triangles_.clear();
   anchors_.clear();
   chain_.clear();
   adapted_.clear();
@@ -64,8 +65,10 @@ void Mesher::add_quad(const Contour& contour, const Polygon& polygon, const std:
 void Mesher::add_fan(const Contour& contour, const Polygon& polygon, const std::vector<int>& rim) {
   const int centre = add_fixed_vertex(contour.volume().crossing(polygon.voxel, polygon.direction).point,
                                       polygon.voxel, contour.cells()[polygon.cell[0]].index);
-  for (std::size_t i = 0; i < rim.size(); ++i)
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    fan_triangles_.push_back(static_cast<int>(surface_.triangles.size()));
     add_triangle(contour, polygon, centre, rim[i], rim[(i + 1) % rim.size()]);
+  }
 }
 
 int Mesher::sheet_vertex(const Contour& contour, int cell, int sheet) {
@@ -123,7 +126,8 @@ void Mesher::place(const Contour& contour, bool all) {
     const SheetGroup& group = contour.cells()[anchors_[v].cell].groups[anchors_[v].group];
     vertex.cut_end = group.cut_end;
     adapted_[v] = group.adapted || group.frozen;
-    if (chain_[v] == group.chain && vertex.edge_end == group.edge_end && vertex.X == group.X()) continue;
+    if (!all && chain_[v] == group.chain && vertex.edge_end == group.edge_end && vertex.X == group.X())
+      continue;
     vertex.X = group.X();
     vertex.voxel = voxel_of(contour, anchors_[v]);
     vertex.on_front = group.chain >= 0;
@@ -165,11 +169,17 @@ std::vector<Anchor> Mesher::turned() const {
     for (const int v : corners)
       if (adapted_[v]) anchors.push_back(anchors_[v]);
   };
-  for (std::size_t t = 0; t < surface_.triangles.size(); ++t)
-    if (any_adapted(surface_.triangles[t]) && is_turned(static_cast<int>(t))) take(surface_.triangles[t]);
+  for (const int t : fan_triangles_)
+    if (any_adapted(surface_.triangles[t]) && is_turned(t)) take(surface_.triangles[t]);
   for (const Quad& quad : quads_)  // the corner opposite may have left no better diagonal
     if (any_adapted(quad.corners) && (is_turned(quad.first_triangle) || is_turned(quad.first_triangle + 1)))
       take(quad.corners);
+  const auto key = [](const Anchor& a) { return std::pair(a.cell, a.group); };
+  std::sort(anchors.begin(), anchors.end(),
+            [&](const Anchor& a, const Anchor& b) { return key(a) < key(b); });
+  anchors.erase(std::unique(anchors.begin(), anchors.end(),
+                            [&](const Anchor& a, const Anchor& b) { return key(a) == key(b); }),
+                anchors.end());
   return anchors;
 }
 

@@ -22,7 +22,8 @@ class Mesher {
   /// Places the vertices and splits quads whose corners moved, or all.
   void place(const Contour& contour, bool all);
 
-  /// The adapted vertices of triangles that are turned or flat about their link, and of their quads.
+  /// The vertices with virtual intersection points of fans' triangles that are turned or flat about their
+  /// link, and of quads with such triangles: each once.
   std::vector<Anchor> turned() const;
 
   /// Those that the chain takes but the quads can't.
@@ -55,6 +56,7 @@ class Mesher {
   TissueSurface surface_;
   std::vector<int> direction_;  // per triangle: of its link
   std::vector<Quad> quads_;
+  std::vector<int> fan_triangles_;
   std::vector<Anchor> anchors_;                      // per vertex; fixed ones have cell −1
   std::vector<int> chain_;                           // per vertex: SheetGroup::chain
   std::vector<char> adapted_;                        // per vertex: it has a virtual intersection point

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "adaptation.h"
 #include "cfem_cutting/surface/tissue_surface.h"
 #include "mesher.h"
@@ -23,16 +21,17 @@ namespace {
 /// Vertices at the ends of a trace, on detours and on the cut leave their cells; where that turns a triangle,
 /// they go back, those on the trace last.
 void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnCut& on_cut) {
-  constexpr int kTries = 4, kBesideTrace = 2;
-  const auto on_trace = [&](const Anchor& anchor) {
-    return contour.cells()[anchor.cell].groups[anchor.group].adapted.has_value();
-  };
+  constexpr int kTries = 10;
   for (int i = 0; i < kTries; ++i) {
+    bool moved = false;
     const std::vector<Anchor> turned = mesher.turned();
-    if (turned.empty()) return;
-    const bool all = i >= kBesideTrace || std::all_of(turned.begin(), turned.end(), on_trace);
-    for (const Anchor& anchor : turned)
-      if (all || !on_trace(anchor)) retract(contour, anchor.cell, anchor.group, on_cut, i > 0);
+    for (const bool on_trace : {false, true}) {
+      if (on_trace && moved) break;
+      for (const Anchor& anchor : turned)
+        if (contour.cells()[anchor.cell].groups[anchor.group].adapted.has_value() == on_trace)
+          moved = draw_back(contour, anchor.cell, anchor.group, on_cut) || moved;
+    }
+    if (!moved) return;
     mesher.place(contour, false);
   }
 }
@@ -66,13 +65,13 @@ const TissueSurface& SurfaceExtractor::extract(const FrontTrace& trace, bool ada
   const bool changed = s_->contour.update();
   if (changed) s_->mesher.build(s_->contour);
   if (changed || s_->freeze_next || trace != s_->trace) s_->follow(trace, adapts, changed);
-  if (s_->freeze_next) freeze_cut_ends(s_->contour);
+  if (s_->freeze_next) freeze_cut_ends(s_->contour, !s_->on_cut);
   s_->freeze_next = false;
   return surface();
 }
 
 void SurfaceExtractor::freeze() {
-  freeze_cut_ends(s_->contour);
+  freeze_cut_ends(s_->contour, !s_->on_cut);
   s_->freeze_next = true;
 }
 

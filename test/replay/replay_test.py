@@ -125,6 +125,8 @@ class Cuts(ReplayTest):
                 self.assertGreater(summary["front"][part]["samples"], 500, (name, part))
                 self.assertLess(summary["front"][part]["max_m"], 4e-5, (name, part))
             self.assertEqual(summary["front"]["buried_samples"], 0, name)
+            # No pit is left where the edge went in and out: that of the box of voxels' centres, to 0.002 %.
+            self.assertAlmostEqual(summary["surface"]["volume_m3"], 4.992e-4, delta=1e-8, msg=name)
             self.assertEqual(summary["surface"]["flipped"] + summary["surface"]["degenerate"], 0, name)
 
     def test_crease_and_cut_end_are_on_the_edge_on_liver_and_bunny(self):
@@ -146,6 +148,7 @@ class Cuts(ReplayTest):
                 self.assertLess(summary["front"][part]["max_m"], 0.01 * voxel, (config, voxel, part))
             self.assertEqual(summary["surface"]["flipped"] + summary["surface"]["degenerate"], 0)
             self.assertGreater(summary["cut_faces"]["samples"], 100)
+            self.assertIn("max_m", summary["cut_faces"]["held_corners"])
             self.assertLess(summary["cut_faces"]["max_m"], 0.1 * voxel, (config, voxel))
 
     @needs_bags

@@ -57,6 +57,7 @@ TEST_P(Fidelity, crease_and_cut_end_are_on_the_edge_in_every_step) {
   EXPECT_LT(all.vertices.largest, 0.01 * cut.voxel);
   const Distances faces = simulation.cut_face_distances().faces;
   EXPECT_GT(faces.count, 100);
+  EXPECT_LT(faces.mean(), 0.01 * cut.voxel);
   EXPECT_LT(faces.largest, 0.1 * cut.voxel);
 }
 

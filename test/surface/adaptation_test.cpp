@@ -130,6 +130,26 @@ TEST(CutEnd, follows_the_edge_to_its_tip_where_no_link_is_severed) {
   EXPECT_NEAR(enclosed_volume(surface.rest()), 384.0, 1e-9);
 }
 
+TEST(CutEnd, frozen_stays_with_its_tissue_whatever_passes_and_is_cut_elsewhere) {
+  VoxelVolume volume = box_volume({8, 8, 6});
+  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()}, [](const Vec3& X) { return X.y() > 5.5 && X.z() > 2.8; });
+  const Vec3 tip(4.2, 1.3, 2.8);
+  Trace trace(line({4.2, 8.0, 2.8}, tip));
+  trace.tip = true;
+  SurfaceExtractor extractor(volume);
+  const TissueSurface& surface = extractor.extract({trace});
+  extractor.freeze();
+  const std::vector<Vec3> frozen = extractor.extract({}).rest().vertices;
+  extractor.extract({line({4.4, 8.0, 3.1}, {3.9, 2.0, 2.2})});
+  EXPECT_EQ(extractor.extract({}).rest().vertices, frozen);
+  sever(volume, Plane{{0, 0, 5.2}, Vec3::UnitZ()}, [](const Vec3& X) { return X.x() < 2.0 && X.y() < 2.0; });
+  extractor.extract({});
+  const auto at_tip = std::find_if(surface.vertices.begin(), surface.vertices.end(),
+                                   [&](const SurfaceVertex& v) { return v.X == tip; });
+  ASSERT_NE(at_tip, surface.vertices.end());
+  EXPECT_EQ(at_tip->voxel, tissue_voxel_at(volume, tip));
+}
+
 /// How far cut vertices are from their plane, at most. It leaves the skin at y = 6 beyond the cells whose
 /// links it severs there.
 double farthest_from_plane(bool on_cut) {

@@ -22,8 +22,6 @@ struct StepInput {
   std::map<std::string, Pose> grips;  ///< X_TF of followed frames, by name; a missing one stays where it was
 };
 
-/// Cutting simulation of one tissue with one blade (Jia et al., Pacific Graphics 2019, Algorithm 1),
-/// ROS-free.
 /// Of cut faces from what the blade has swept (cut or dented only), undeformed, m; what is farther than a
 /// voxel counts as a voxel.
 struct CutFaceDistances {
@@ -31,6 +29,8 @@ struct CutFaceDistances {
   Distances held_corners;  ///< at those that it holds now, which lie on its trace
 };
 
+/// Cutting simulation of one tissue with one blade (Jia et al., Pacific Graphics 2019, Algorithm 1),
+/// ROS-free.
 class Simulation {
  public:
   /// @param shape the tissue

@@ -73,8 +73,8 @@ class SurfaceExtractor {
 
   /// Keeps the present virtual intersection points of sheets in which a cut ends when the front moves on, and
   /// those that the next `extract` makes: a cut ends where the blade was, until the cut goes on through the
-  /// same sheets. With adaptation, the other vertices at cuts go to what the blade has cut then, and there to
-  /// the skin if they are at a rim, where a cell has no other cut.
+  /// same sheets. With adaptation and `on_cut`, those on the skin and the other vertices at cuts go to what
+  /// the blade has cut within a voxel then, and there to the skin, where a cell has no other cut.
   void freeze();
 
   const TissueSurface& surface() const;
