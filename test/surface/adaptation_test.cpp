@@ -111,13 +111,21 @@ TEST(CutEnd, beside_the_front_lies_on_the_cut) {
   EXPECT_GT(farthest_end(false), 0.1);
 }
 
-TEST(CutEnd, follows_the_edge_to_its_tip_where_no_link_is_severed) {
+/// An edge whose tip is some voxels beyond the links that it has severed.
+class Stab : public testing::Test {
+ protected:
+  Stab() {
+    sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()},
+          [](const Vec3& X) { return X.y() > 5.5 && X.z() > 2.8; });
+    trace.tip = true;
+  }
   VoxelVolume volume = box_volume({8, 8, 6});
-  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()}, [](const Vec3& X) { return X.y() > 5.5 && X.z() > 2.8; });
-  const Vec3 tip(4.2, 1.3, 2.8);
-  Trace trace(line({4.2, 8.0, 2.8}, tip));
-  trace.tip = true;
-  SurfaceExtractor extractor(volume);
+  const Vec3 tip{4.2, 1.3, 2.8};
+  Trace trace{line({4.2, 8.0, 2.8}, tip)};
+  SurfaceExtractor extractor{volume};
+};
+
+TEST_F(Stab, is_followed_to_its_tip_where_no_link_is_severed) {
   const TissueSurface& surface = extractor.extract({trace});
   const auto at_tip = std::find_if(surface.vertices.begin(), surface.vertices.end(),
                                    [](const SurfaceVertex& v) { return v.edge_end == EdgeEnd::kTip; });
@@ -130,13 +138,7 @@ TEST(CutEnd, follows_the_edge_to_its_tip_where_no_link_is_severed) {
   EXPECT_NEAR(enclosed_volume(surface.rest()), 384.0, 1e-9);
 }
 
-TEST(CutEnd, frozen_stays_with_its_tissue_whatever_passes_and_is_cut_elsewhere) {
-  VoxelVolume volume = box_volume({8, 8, 6});
-  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()}, [](const Vec3& X) { return X.y() > 5.5 && X.z() > 2.8; });
-  const Vec3 tip(4.2, 1.3, 2.8);
-  Trace trace(line({4.2, 8.0, 2.8}, tip));
-  trace.tip = true;
-  SurfaceExtractor extractor(volume);
+TEST_F(Stab, frozen_stays_with_its_tissue_whatever_passes_and_is_cut_elsewhere) {
   const TissueSurface& surface = extractor.extract({trace});
   extractor.freeze();
   const std::vector<Vec3> frozen = extractor.extract({}).rest().vertices;
