@@ -5,11 +5,20 @@
 namespace cfem_cutting {
 namespace {
 
-/// Where traces come to a group twice, the shorter way counts.
-void bind(SheetGroup& group, const ChainLink& link) {
-  if (group.adapted && (link.X - group.minimum).norm() >= (*group.adapted - group.minimum).norm()) return;
-  group.adapted = link.X;
-  group.edge_end = link.edge_end;
+double length_of(const Polyline& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
+
+/// Two traces may pass the same vertices: the longer one takes them.
+std::vector<const Trace*> longest_first(const FrontTrace& trace) {
+  std::vector<std::pair<double, const Trace*>> parts;
+  for (const Trace& part : trace) parts.emplace_back(length_of(part.points), &part);
+  std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<const Trace*> sorted;
+  for (const auto& part : parts) sorted.push_back(part.second);
+  return sorted;
 }
 
 using Nearest = SurfaceExtractor::NearestOnCut;
@@ -44,12 +53,14 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set
       group.edge_end = EdgeEnd::kNone;
     }
   int number = 0;
-  for (const Trace& part : trace) {
+  for (const Trace* part : longest_first(trace)) {
     ++number;
-    for (const ChainLink& link : find_chain(contour, part, avoided)) {
+    for (const ChainLink& link : find_chain(contour, *part, avoided)) {
       SheetGroup& group = contour.cells()[link.cell].groups[link.group];
       group.chain = link.continues ? ++number : number += 2;
-      if (moves) bind(group, link);
+      if (!moves) continue;
+      group.adapted = link.X;
+      group.edge_end = link.edge_end;
     }
   }
 }
@@ -80,7 +91,7 @@ void settle_on_cut(Contour& contour, const Nearest& nearest) {
     const Vec3 start = held ? group.X() : group.frozen.value_or(group.minimum);
     const std::optional<Vec3> X = to_cut_and(contour, start, nearest, onto_its_skin);
     group.settled = X.has_value();
-    if (X && !is_near(contour, *X, start)) group.frozen = X;
+    if (X && (held || !is_near(contour, *X, start))) group.frozen = X;
   }
 }
 

@@ -62,12 +62,14 @@ class ChainFinder {
   }
 
  private:
-  /// Of a cell's groups those where a cut ends, else those with skin.
+  /// Of a cell's groups those where a cut ends, else those with skin, but for those on other chains.
   std::vector<int> eligible(const DualCell& cell) const {
     std::vector<int> groups;
     for (const bool cut_end : {true, false}) {
-      for (std::size_t g = 0; g < cell.groups.size(); ++g)
-        if (cut_end ? cell.groups[g].cut_end : cell.groups[g].skin) groups.push_back(static_cast<int>(g));
+      for (std::size_t g = 0; g < cell.groups.size(); ++g) {
+        const SheetGroup& group = cell.groups[g];
+        if (group.chain < 0 && (cut_end ? group.cut_end : group.skin)) groups.push_back(static_cast<int>(g));
+      }
       if (!groups.empty()) break;
     }
     return groups;
@@ -205,12 +207,19 @@ class ChainFinder {
     const Node& before = nodes_[m];
     Node& node = nodes_[n];
     if (node.along - before.along < kNearest * h_) return;
-    if (before.cell == node.cell && before.group == node.group) return;
     const double total = before.best() + node.cost + cost + left_out(before.piece + 1, node.piece);
-    if (total >= node.total) return;
+    if (total >= node.total || is_passed(m, node)) return;
     node.total = total;
     node.before = m;
     node.continues = continues;
+  }
+
+  /// Whether the best chain to m has the node's vertex already: a trace that turns back comes by it twice.
+  bool is_passed(int m, const Node& node) const {
+    for (;; m = nodes_[m].before) {
+      if (nodes_[m].cell == node.cell && nodes_[m].group == node.group) return true;
+      if (nodes_[m].begins()) return false;
+    }
   }
 
   static void put_at_end(ChainLink& link, const Vec3& X, EdgeEnd edge_end) {

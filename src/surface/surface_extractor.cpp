@@ -51,7 +51,7 @@ void SurfaceExtractor::State::follow(const FrontTrace& next, bool adapts, bool a
   std::set<Diagonal> avoided;
   for (int i = 0; i < kTries; ++i) {
     adapt(contour, next, adapts, avoided);
-    if (freeze_next && adapts && on_cut) settle_on_cut(contour, on_cut);
+    if ((all || freeze_next) && adapts && on_cut) settle_on_cut(contour, on_cut);
     mesher.place(contour, all && i == 0);
     unfold(contour, mesher, on_cut);
     const auto missed = mesher.missed_diagonals();

@@ -111,6 +111,25 @@ TEST(CutEnd, beside_the_front_lies_on_the_cut) {
   EXPECT_GT(farthest_end(false), 0.1);
 }
 
+TEST(CutEnd, on_the_skin_stays_on_the_cut_when_the_edge_is_gone) {
+  VoxelVolume volume = box_volume({8, 6, 6});
+  const double depth = 3.4;  // just below the last row of links that are severed
+  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()}, [&](const Vec3& X) { return X.z() > depth; });
+  const auto nearest = [&](const Vec3& X) { return Vec3(4.2, X.y(), std::max(depth, X.z())); };
+  SurfaceExtractor extractor(volume, nearest);
+  extractor.freeze();
+  extractor.extract({line({4.2, 0.0, depth}, {4.2, 6.0, depth})});
+  const TissueSurface& surface = extractor.extract({});
+  int ends = 0;
+  for (const SurfaceVertex& vertex : surface.vertices) {
+    if (!vertex.cut_end) continue;
+    ++ends;
+    EXPECT_LT((vertex.X - nearest(vertex.X)).norm(), 1e-9) << vertex.X.transpose();
+  }
+  EXPECT_EQ(ends, 7);
+  EXPECT_EQ(count_flipped(surface), 0);
+}
+
 /// An edge whose tip is some voxels beyond the links that it has severed.
 class Stab : public testing::Test {
  protected:
@@ -154,13 +173,14 @@ TEST_F(Stab, frozen_stays_with_its_tissue_whatever_passes_and_is_cut_elsewhere) 
 
 /// How far cut vertices are from their plane, at most. It leaves the skin at y = 6 beyond the cells whose
 /// links it severs there.
-double farthest_from_plane(bool on_cut) {
+/// @param freezes the cut's end was on the front
+double farthest_from_plane(bool on_cut, bool freezes = true) {
   VoxelVolume volume = box_volume({8, 6, 6});
   const Vec3 normal = Vec3(1.0, 0.35, 0.0).normalized(), point(4.445, 0.0, 0.0);
   sever(volume, Plane{point, normal});
   const auto nearest = [&](const Vec3& X) -> Vec3 { return X - normal.dot(X - point) * normal; };
   SurfaceExtractor extractor(volume, on_cut ? SurfaceExtractor::NearestOnCut(nearest) : nullptr);
-  extractor.freeze();
+  if (freezes) extractor.freeze();
   const TissueSurface& surface = extractor.extract({});
   expect_closed_and_manifold(surface.rest(), "tilted cut");
   EXPECT_EQ(count_flipped(surface), 0);
@@ -176,6 +196,8 @@ TEST(Rim, lies_on_the_cut_beyond_its_cell) {
   EXPECT_LT(farthest_from_plane(true), 0.02);
   EXPECT_GT(farthest_from_plane(false), 0.1);
 }
+
+TEST(Rim, lies_on_the_cut_whether_its_end_advanced_or_not) { EXPECT_LT(farthest_from_plane(true, false), 0.02); }
 
 TEST(Deform, doubles_the_rim_and_draws_bound_vertices_on_the_front) {
   VoxelVolume volume = box_volume({8, 6, 6});

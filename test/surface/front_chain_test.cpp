@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "cfem_cutting/geometry/polyline.h"
 #include "surface/tissue.h"
 
 namespace cfem_cutting {
 namespace {
 
+using test::box_volume;
 using Pairs = std::set<Diagonal>;
 
 /// Neighbours in a chain that the surface joins.
@@ -20,7 +22,7 @@ Pairs joined_in(const std::vector<ChainLink>& chain) {
 }
 
 TEST(FrontChain, takes_another_way_where_a_diagonal_is_avoided) {
-  const VoxelVolume volume = test::box_volume({8, 8, 4});
+  const VoxelVolume volume = box_volume({8, 8, 4});
   Contour contour(volume);
   contour.update();
   const Trace trace(refine({Vec3(1.6, 1.61, 4.0), Vec3(6.4, 6.41, 4.0)}, 0.5));
@@ -34,6 +36,35 @@ TEST(FrontChain, takes_another_way_where_a_diagonal_is_avoided) {
   for (const Diagonal& pair : joined_in(detour)) EXPECT_EQ(diagonals.count(pair), 0u);
   EXPECT_EQ(joined_in(detour).size(), detour.size() - 1) << "the detour is whole";
   EXPECT_GT(detour.size(), straight.size());
+}
+
+/// Tissue that folds under the edge has the trace turn back.
+TEST(FrontChain, comes_by_a_vertex_once) {
+  const VoxelVolume volume = box_volume({8, 8, 4});
+  Contour contour(volume);
+  contour.update();
+  const Trace trace(refine({Vec3(1.6, 4.1, 4.0), Vec3(5.4, 4.3, 4.0), Vec3(3.1, 4.2, 4.0)}, 0.25));
+  const std::vector<ChainLink> chain = find_chain(contour, trace);
+  std::set<std::pair<int, int>> vertices;
+  for (const ChainLink& link : chain) vertices.insert({link.cell, link.group});
+  EXPECT_GE(chain.size(), 3u);
+  EXPECT_EQ(vertices.size(), chain.size());
+}
+
+TEST(FrontChain, leaves_out_vertices_of_longer_traces) {
+  const VoxelVolume volume = box_volume({8, 8, 4});
+  const Polyline across = refine({Vec3(1.6, 4.1, 4.0), Vec3(6.4, 4.3, 4.0)}, 0.25);
+  const Polyline beside = refine({Vec3(3.1, 4.4, 4.0), Vec3(4.9, 4.4, 4.0)}, 0.25);
+  SurfaceExtractor extractor(volume);
+  const auto held = [&](const FrontTrace& trace, const Polyline& on) {
+    int count = 0;
+    for (const SurfaceVertex& v : extractor.extract(trace).vertices)
+      count += v.on_front && project(on, v.X).distance < 1e-9 ? 1 : 0;
+    return count;
+  };
+  const int alone = held({across}, across);
+  EXPECT_EQ(held({beside, across}, across), alone);
+  EXPECT_GE(held({beside, across}, beside), 1);
 }
 
 }  // namespace
