@@ -33,6 +33,7 @@ void Mesher::build(const Contour& contour) {
   chain_.clear();
   adapted_.clear();
   direction_.clear();
+  midpoints_.clear();
   midpoint_of_arc_.clear();
   std::array<int, 8> none;
   none.fill(-1);
@@ -97,6 +98,7 @@ int Mesher::midpoint(const Contour& contour, const Polygon& polygon, int i) {
   const int vertex =
       add_fixed_vertex(0.5 * (crossing(side) + crossing(end)), cell.voxel[side / 3], cell.index);
   midpoint_of_arc_.emplace(key, vertex);
+  midpoints_.push_back({vertex, polygon.cell[i], polygon.group(contour, i), normal_axis});
   return vertex;
 }
 

@@ -22,6 +22,15 @@ class Mesher {
   /// Places the vertices and splits quads whose corners moved, or all.
   void place(const Contour& contour, bool all);
 
+  /// A vertex of its own in a cell's face, for one of several arcs there between the same two sheets.
+  struct Midpoint {
+    int vertex;
+    int cell, group;  ///< of the sheet on one side
+    int normal_axis;  ///< of the face
+  };
+  const std::vector<Midpoint>& midpoints() const { return midpoints_; }
+  void move(int midpoint, const Vec3& X) { surface_.vertices[midpoint].X = X; }
+
   /// The vertices with virtual intersection points of fans' triangles that are turned or flat about their
   /// link, and of quads with such triangles: each once.
   std::vector<Anchor> turned() const;
@@ -61,6 +70,7 @@ class Mesher {
   std::vector<int> chain_;                           // per vertex: SheetGroup::chain
   std::vector<char> adapted_;                        // per vertex: it has a virtual intersection point
   std::vector<std::array<int, 8>> vertex_of_sheet_;  // per cell, −1
+  std::vector<Midpoint> midpoints_;
   std::unordered_map<std::int64_t, int> midpoint_of_arc_;
 };
 

@@ -1,6 +1,7 @@
 #include "adaptation.h"
 #include "cfem_cutting/surface/tissue_surface.h"
 #include "mesher.h"
+#include "settling.h"
 
 namespace cfem_cutting {
 
@@ -48,10 +49,12 @@ const TissueSurface& SurfaceExtractor::surface() const { return s_->mesher.surfa
 /// Where quads can't have their diagonals along the chain, it takes another way.
 void SurfaceExtractor::State::follow(const FrontTrace& next, bool adapts, bool all) {
   constexpr int kTries = 3;
+  const bool settles = (all || freeze_next) && adapts && on_cut;
+  if (settles) settle_midpoints(contour, mesher, on_cut);
   std::set<Diagonal> avoided;
   for (int i = 0; i < kTries; ++i) {
     adapt(contour, next, adapts, avoided);
-    if ((all || freeze_next) && adapts && on_cut) settle_on_cut(contour, on_cut);
+    if (settles) settle_on_cut(contour, on_cut);
     mesher.place(contour, all && i == 0);
     unfold(contour, mesher, on_cut);
     const auto missed = mesher.missed_diagonals();

@@ -197,7 +197,32 @@ TEST(Rim, lies_on_the_cut_beyond_its_cell) {
   EXPECT_GT(farthest_from_plane(false), 0.1);
 }
 
-TEST(Rim, lies_on_the_cut_whether_its_end_advanced_or_not) { EXPECT_LT(farthest_from_plane(true, false), 0.02); }
+TEST(Rim, lies_on_the_cut_whether_its_end_advanced_or_not) {
+  EXPECT_LT(farthest_from_plane(true, false), 0.02);
+}
+
+/// A cut so short that its two sides meet on both of its ends in the cells' faces.
+TEST(ShortCut, lies_on_what_was_swept) {
+  VoxelVolume volume = box_volume({8, 6, 6});
+  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()},
+        [](const Vec3& X) { return X.y() < 1.0 && std::abs(X.z() - 2.5) < 0.1; });
+  const auto nearest = [](const Vec3& X) {
+    return Vec3(4.2, std::min(X.y(), 0.8), std::clamp(X.z(), 2.2, 2.8));
+  };
+  SurfaceExtractor extractor(volume, nearest);
+  const TissueSurface& surface = extractor.extract({});
+  expect_closed_and_manifold(surface.rest(), "short cut");
+  EXPECT_EQ(count_flipped(surface), 0);
+  int corners = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    for (const int v : surface.triangles[t]) {
+      if (!surface.cut[t]) continue;
+      ++corners;
+      const Vec3& X = surface.vertices[v].X;
+      EXPECT_LT((X - nearest(X)).norm(), 0.02) << X.transpose();
+    }
+  EXPECT_GT(corners, 12);
+}
 
 TEST(Deform, doubles_the_rim_and_draws_bound_vertices_on_the_front) {
   VoxelVolume volume = box_volume({8, 6, 6});

@@ -1,0 +1,81 @@
+#include "settling.h"
+
+namespace cfem_cutting {
+namespace {
+
+bool is_near(const Contour& contour, const Vec3& a, const Vec3& b) {
+  constexpr double kNear = 0.02;  // of a voxel
+  return (a - b).norm() < kNear * contour.volume().lattice().spacing.minCoeff();
+}
+
+/// From X to the cut and by turns to what `other` leads to, and back; nothing if there is no cut near.
+template <typename Other>
+std::optional<Vec3> to_cut_and(const Contour& contour, const Vec3& X, const NearestOnCut& nearest,
+                               const Other& other) {
+  constexpr int kTurns = 8;
+  std::optional<Vec3> at = nearest(X);
+  for (int i = 1; i < kTurns && at; ++i) {
+    const std::optional<Vec3> next = nearest(other(*at));
+    if (!next || is_near(contour, *at, *next)) break;
+    at = next;
+  }
+  return at;
+}
+
+Vec3 into(const Box& room, const Vec3& X) { return X.cwiseMax(room.min()).cwiseMin(room.max()); }
+
+/// Where a midpoint may lie: in its cells' common face.
+Box room_in_face(const Contour& contour, const Mesher::Midpoint& midpoint, const Vec3& X) {
+  Box room = room_in_cell(contour.volume().lattice(), contour.cells()[midpoint.cell].index);
+  room.min()[midpoint.normal_axis] = room.max()[midpoint.normal_axis] = X[midpoint.normal_axis];
+  return room;
+}
+
+}  // namespace
+
+void settle_on_cut(Contour& contour, const NearestOnCut& nearest) {
+  for (DualCell& cell : contour.cells()) {
+    if (cell.groups.size() != 1 || !cell.groups[0].severed) continue;
+    SheetGroup& group = cell.groups[0];
+    const bool held = group.adapted && group.cut_end;
+    if (group.settled || (held && !group.skin)) continue;
+    const auto onto_its_skin = [&](const Vec3& X) { return onto_skin(X, contour.volume(), cell, group); };
+    const Vec3 start = held ? group.X() : group.frozen.value_or(group.minimum);
+    const std::optional<Vec3> X = to_cut_and(contour, start, nearest, onto_its_skin);
+    group.settled = X.has_value();
+    if (X && (held || !is_near(contour, *X, start))) group.frozen = X;
+  }
+}
+
+void settle_midpoints(const Contour& contour, Mesher& mesher, const NearestOnCut& nearest) {
+  for (const Mesher::Midpoint& midpoint : mesher.midpoints()) {
+    const DualCell& cell = contour.cells()[midpoint.cell];
+    const SheetGroup& group = cell.groups[midpoint.group];
+    if (!group.severed) continue;
+    const Vec3 start = mesher.surface().vertices[midpoint.vertex].X;
+    const Box room = room_in_face(contour, midpoint, start);
+    const auto onto_its_skin = [&](const Vec3& X) {
+      return into(room, onto_skin(X, contour.volume(), cell, group));
+    };
+    const std::optional<Vec3> X = to_cut_and(contour, start, nearest, onto_its_skin);
+    if (X) mesher.move(midpoint.vertex, into(room, *X));
+  }
+}
+
+bool draw_back(Contour& contour, int cell, int group, const NearestOnCut& nearest) {
+  const Box room = room_in_cell(contour.volume().lattice(), contour.cells()[cell].index);
+  SheetGroup& of_sheets = contour.cells()[cell].groups[group];
+  const auto into_cell = [&](const Vec3& X) { return into(room, X); };
+  const Vec3 from = of_sheets.X();
+  if (of_sheets.adapted) {
+    of_sheets.drawn_back = into_cell(*of_sheets.adapted);
+  } else if (of_sheets.drawn_back) {
+    of_sheets.drawn_back = of_sheets.minimum;
+  } else {
+    of_sheets.drawn_back =
+        into_cell(nearest ? to_cut_and(contour, from, nearest, into_cell).value_or(from) : from);
+  }
+  return of_sheets.X() != from;
+}
+
+}  // namespace cfem_cutting
