@@ -11,6 +11,8 @@ namespace {
 // Along the edge, of contact points' spacing: where a dent ends; and how near a point is to the one before to
 // be left out, as tissue that slides brings them together and past each other.
 constexpr double kDentReach = 4.0, kCrowded = 0.25;
+constexpr double kStretch =
+    1.5;  // of tissue along the edge, at most: how much of it lies on the rest of the edge
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// The part of a segment from a point in tissue on that is in tissue, tested in steps of 1/16.
@@ -60,7 +62,7 @@ Polyline Simulation::State::follow_edge(const FrontEnd& end, const Vec3& dent) c
 
 /// The trace goes on from a contact point to where the edge ends or leaves the tissue: there the front, or
 /// the skin or cut's end that it has pushed in as far as at the contact point; and straight on as long as
-/// there is tissue, which in motion may reach farther along the edge than at rest.
+/// there are edge and tissue, which in motion may reach farther along the edge than at rest.
 /// @param until m, arc length at which another trace begins
 void Simulation::State::extend(const EdgeContactPoint& last, double until, int step, Trace& trace) const {
   const std::optional<FrontEnd> end = tracker.end_beyond(last.along, until, step, volume);
@@ -72,8 +74,11 @@ void Simulation::State::extend(const EdgeContactPoint& last, double until, int s
     X = nearer_to(last.X + beyond, go_in_tissue(volume, last.X, beyond), go_in_tissue(volume, end->X, dent));
   }
   (step > 0 ? trace.tip : trace.heel) = end && end->edge_ends;
-  if ((!end || (!end->edge_ends && !end->goes_on)) && tissue_voxel_at(volume, X) >= 0)
-    X = go_in_tissue(volume, X, 2.0 * contact_spacing() * tracker.material_tangent(last.along, step));
+  if ((!end || (!end->edge_ends && !end->goes_on)) && tissue_voxel_at(volume, X) >= 0) {
+    const double rest = kStretch * tracker.length_beyond(last.along, step) - (X - last.X).norm();
+    const double reach = std::clamp(rest, 0.0, 2.0 * contact_spacing());
+    X = go_in_tissue(volume, X, reach * tracker.material_tangent(last.along, step));
+  }
   if ((X - last.X).norm() > 1e-6 * volume.lattice().spacing.minCoeff()) points.push_back(X);
   if (step < 0) std::reverse(points.begin(), points.end());
   trace.points.insert(trace.points.end(), points.begin(), points.end());

@@ -97,6 +97,10 @@ std::optional<FrontEnd> FrontTracker::end_beyond(double along, double until, int
   return end;
 }
 
+double FrontTracker::length_beyond(double along, int step) const {
+  return step > 0 ? arc_lengths().back() - along : along;
+}
+
 std::vector<Polyline> FrontTracker::runs_inside() const {
   std::vector<Polyline> runs;
   bool running = false;

@@ -18,6 +18,7 @@ constexpr double kDetour = 0.3;      // for a vertex whose cell the trace does n
 constexpr double kBreak = 3.0;       // for vertices that nothing joins
 constexpr double kUncovered = 5.0;   // for each voxel of the trace's length, where one vertex stands for all
 constexpr double kNearest = 0.005;   // of a voxel, between vertices
+constexpr double kWidestGap = 1.0;   // in voxels, that is closed where the surface joins no vertices
 
 /// A group that may become part of the chain.
 struct Node {
@@ -243,7 +244,21 @@ class ChainFinder {
     if (!alone || tail > head)
       put_at_end(chain.back(), trace_.points.front(), trace_.heel ? EdgeEnd::kHeel : EdgeEnd::kNone);
     std::reverse(chain.begin(), chain.end());
+    close_gaps(chain);
     return chain;
+  }
+
+  /// Neighbours that nothing joins meet halfway, but the trace's ends stay.
+  void close_gaps(std::vector<ChainLink>& chain) const {
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      Vec3 &before = chain[i - 1].X, &after = chain[i].X;
+      if (chain[i].continues || (after - before).norm() > kWidestGap * h_) continue;
+      const bool first = i == 1, last = i + 1 == chain.size();
+      if (first && last) continue;
+      before = after = first  ? before
+                       : last ? after
+                              : project(trace_.points, 0.5 * (before + after)).point;
+    }
   }
 
   static std::array<int, 3> key(const Vec3i& index) { return {index.x(), index.y(), index.z()}; }

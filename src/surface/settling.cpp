@@ -69,11 +69,12 @@ bool draw_back(Contour& contour, int cell, int group, const NearestOnCut& neares
   const Vec3 from = of_sheets.X();
   if (of_sheets.adapted) {
     of_sheets.drawn_back = into_cell(*of_sheets.adapted);
-  } else if (of_sheets.drawn_back) {
+  } else if (room.contains(from) && of_sheets.drawn_back) {
     of_sheets.drawn_back = of_sheets.minimum;
   } else {
-    of_sheets.drawn_back =
+    const Vec3 in_cell =
         into_cell(nearest ? to_cut_and(contour, from, nearest, into_cell).value_or(from) : from);
+    of_sheets.drawn_back = of_sheets.drawn_back ? in_cell : Vec3(0.5 * (from + in_cell));
   }
   return of_sheets.X() != from;
 }

@@ -63,6 +63,9 @@ class FrontTracker {
   /// @return nothing if the start is not in tissue
   std::optional<FrontEnd> end_beyond(double along, double until, int step, const VoxelVolume& volume) const;
 
+  /// From a place on the edge to its heel (step −1) or tip (1), m.
+  double length_beyond(double along, int step) const;
+
   /// Of the front at a place on it, m; nothing far from tissue.
   std::optional<Vec3> material_at(double along) const;
 
