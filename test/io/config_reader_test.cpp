@@ -44,13 +44,20 @@ TEST(ConfigReader, NamesUnknownKeysAndTheNearestKnownOne) {
 TEST(ConfigReader, WritesBadListsInOneLine) {
   EXPECT_EQ(refusal("blade:\n  edge:\n    - [0, 0, 0]\n    -\n      - 0\n      - x\n"),
             "blade.edge: [[0, 0, 0], [0, x]]: must be a list of at least two points [x, y, z], no two in a "
-            "row equal");
+            "row equal, or [] for none");
 }
 
 TEST(ConfigReader, WantsExactlyOneEdge) {
   EXPECT_NE(refusal("blade: {friction: 0.1}").find("exactly one"), std::string::npos);
   EXPECT_NE(refusal("blade: {edge: [[0, 0, 0], [1, 0, 0]], edge_links: [a, b]}").find("exactly one"),
             std::string::npos);
+}
+
+TEST(ConfigReader, AnEmptyListIsNoEdge) {
+  EXPECT_NE(refusal("blade: {edge: [], edge_links: []}").find("neither is given"), std::string::npos);
+  const auto config = read_config(YAML::Load("blade: {edge: [], edge_links: [heel, tip]}"));
+  EXPECT_TRUE(config.simulation.blade.edge.empty());
+  EXPECT_EQ(config.simulation.blade.edge_links, (std::vector<std::string>{"heel", "tip"}));
 }
 
 TEST(ConfigReader, ReadsNumbersInAnyForm) {

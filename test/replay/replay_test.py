@@ -84,6 +84,12 @@ class Cuts(ReplayTest):
             self.assertTrue(through["surface"]["closed"] and through["surface"]["manifold"])
             self.assertEqual(self.replay("stopped", *self.stroke(0.010), *options)["pieces"], 1, level)
 
+    def test_links_of_a_urdf_take_the_place_of_the_configured_edge(self):
+        urdf = os.path.join(PACKAGE, "urdf", "scalpel_no11.urdf")
+        blade = ("blade.edge=[]", "blade.edge_links=[heel, tip]", "blade.urdf=" + urdf)
+        summary = self.replay("out", "--duration", "0.02", *[o for s in blade for o in ("--set", s)])
+        self.assertEqual(summary["steps"], 2)
+
     def test_immediate_mode_fractures_in_every_step_that_meets_links(self):
         self.replay("out", *self.stroke(0.01), "--set", "fracture.mode=immediate")
         steps, severed = self.rows("out", "steps.csv"), 0.0
