@@ -41,6 +41,11 @@ TEST(ConfigReader, NamesUnknownKeysAndTheNearestKnownOne) {
   EXPECT_EQ(refusal("tissue: {scale: 1, scale: 2}"), "tissue.scale: is given twice");
 }
 
+TEST(ConfigReader, WritesBadMappingsOnce) {
+  EXPECT_EQ(refusal("tissue:\n  fixed:\n    - box:\n        min: [0, 0, 2]\n        max: [1, 1, 1]\n"),
+            "tissue.fixed[0].box: {min: [0, 0, 2], max: [1, 1, 1]}: must be a box with min <= max");
+}
+
 TEST(ConfigReader, WritesBadListsInOneLine) {
   EXPECT_EQ(refusal("blade:\n  edge:\n    - [0, 0, 0]\n    -\n      - 0\n      - x\n"),
             "blade.edge: [[0, 0, 0], [0, x]]: must be a list of at least two points [x, y, z], no two in a "
