@@ -5,6 +5,7 @@ import time
 
 import rospy
 import rostest
+from rosgraph_msgs.msg import Log
 
 from node_test import NodeTest, force, is_zero, make_pose, slice_poses, wait_until
 
@@ -39,6 +40,19 @@ class BadPosesTest(NodeTest):
         for key, count in (("invalid", 4), ("no_stamp", 1), ("out_of_order", 2), ("no_transform", 1)):
             wanted = int(before[key]) + count * bad
             wait_until(lambda: self.count(key) == wanted, "%s is %d, not %d" % (key, wanted, self.count(key)), 20)
+
+    def test_console_names_topic_value_and_rule(self):
+        lines = []
+        subscriber = rospy.Subscriber("/rosout", Log, lambda log: lines.append(log.msg))
+        bad = (((NAN, 0, 0), (0, 0, 0, 1), ["/tool/measured_cp", "[nan, 0, 0]", "must be finite"]),
+               ((0, 0, 0), (0, 0, 0, 2), ["/tool/measured_cp", "[0, 0, 0, 2]", "must be of length 1"]))
+        for xyz, quaternion, words in bad:
+            end = time.monotonic() + 30
+            while time.monotonic() < end and not any(all(word in line for word in words) for line in lines):
+                self.poses.publish(make_pose(7000, xyz, quaternion))
+                time.sleep(0.1)
+            self.assertLess(time.monotonic(), end, (words, lines))
+        subscriber.unregister()
 
     def jumps(self):
         return int(self.diagnostics.get("simulation", {}).get("jumps", -1))

@@ -28,6 +28,10 @@ geometry_msgs::Transform to_transform(const Pose& pose);
 bool to_pose(const geometry_msgs::Pose& message, Pose& pose);
 bool to_pose(const geometry_msgs::Transform& message, Pose& pose);
 
+/// Why to_pose refuses a message: value and rule; empty if it does not.
+std::string fault_of(const geometry_msgs::Pose& message);
+std::string fault_of(const geometry_msgs::Transform& message);
+
 /// Name of a frame without the leading slash of tf's first version.
 std::string frame_name(const std::string& frame_id);
 
