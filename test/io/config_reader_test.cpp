@@ -88,6 +88,17 @@ TEST(ConfigReader, ReadsTheSampleConfigurationsWithOverrides) {
   EXPECT_GE(files, 3);
 }
 
+TEST(ConfigReader, PlacesInListsAreOverriddenInBrackets) {
+  const std::string path = testing::TempDir() + "materials.yaml";
+  std::ofstream(path) << "tissue: {materials: [{label: 1}, {label: 2}]}\n";
+  const auto materials =
+      read_config_file(path, {"tissue.materials[1].density=900"}).simulation.tissue.materials;
+  EXPECT_EQ(materials.at(1).density, 900.0);
+  EXPECT_NE(materials.at(0).density, 900.0);
+  EXPECT_THROW(read_config_file(path, {"tissue.materials[].density=900"}), ConfigError);
+  EXPECT_THROW(read_config_file(path, {"[0].density=900"}), ConfigError);
+}
+
 TEST(ConfigReader, NamesFileAndLineOfASyntaxError) {
   const std::string path = testing::TempDir() + "bad_syntax.yaml";
   std::ofstream(path) << "tissue:\n  scale: [1\nblade: }\n";
