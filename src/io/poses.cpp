@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <utility>
 
 #include "cfem_cutting/blade/blade.h"
 #include "cfem_cutting/geometry/errors.h"
+#include "cfem_cutting/geometry/files.h"
 #include "cfem_cutting/io/number.h"
 
 namespace cfem_cutting {
@@ -62,8 +62,8 @@ void check_header(const Line& line) {
 }  // namespace
 
 PoseTrack read_poses_csv(const std::string& path) {
+  check_readable(path);
   std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path)) throw FileError(path + ": cannot be read");
   PoseTrack track;
   std::string text;
   bool header = false;

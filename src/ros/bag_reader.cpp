@@ -8,12 +8,13 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <optional>
 #include <set>
 
 #include "cfem_cutting/geometry/errors.h"
+#include "cfem_cutting/geometry/files.h"
 #include "cfem_cutting/ros/conversions.h"
 #include "cfem_cutting/ros/pose_queue.h"
 
@@ -162,10 +163,19 @@ Recording read_open_bag(const rosbag::Bag& bag, const BagRequest& request) {
   return recording;
 }
 
+/// Whatever follows: a bag may have been cut off.
+void check_beginning(const std::string& path) {
+  check_readable(path);
+  const std::string wanted = "#ROS";  // #ROSBAG V2.0, or #ROSRECORD in older ones
+  std::string beginning(wanted.size(), ' ');
+  std::ifstream(path, std::ios::binary).read(&beginning[0], static_cast<std::streamsize>(wanted.size()));
+  if (beginning != wanted) throw FileError(path + ": is no bag: must begin with #ROSBAG");
+}
+
 }  // namespace
 
 Recording read_bag(const BagRequest& request) {
-  if (!std::filesystem::is_regular_file(request.path)) throw FileError(request.path + ": cannot be read");
+  check_beginning(request.path);
   try {
     rosbag::Bag bag;
     bag.open(request.path, rosbag::bagmode::Read);

@@ -217,7 +217,9 @@ class Refusals(ReplayTest):
     def test_files(self):
         self.refuse(["none.yaml"], "--duration", "1", config=self.path("none.yaml"))
         self.refuse(["none.csv"], "--poses", self.path("none.csv"))
-        self.refuse_setting(["none.off"], "tissue.source=" + self.path("none.off"))
+        self.refuse_setting(["tissue.source", "none.off", "No such file"], "tissue.source=" + self.path("none.off"))
+        os.mkdir(self.path("folder.off"))
+        self.refuse_setting(["folder.off", "Is a directory"], "tissue.source=" + self.path("folder.off"))
         self.refuse_setting(["open.off", "open edges"], "tissue.source=" + self.write("open.off", OPEN_MESH))
         text = "t,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n1,0,many,0,0,0,0,1\n"
         self.refuse(["bad.csv:3", "column y", "many"], "--poses", self.write("bad.csv", text))
@@ -228,6 +230,7 @@ class Refusals(ReplayTest):
         self.refuse_setting(["poisson_ratio", "0.5"], "tissue.materials=[{poisson_ratio: 0.5}]")
         self.refuse_setting(["tissue.voxel_size", "-0.004"], "tissue.voxel_size=-0.004")
         self.refuse_setting(["voxels", "tissue.voxel_size"], "tissue.voxel_size=0.00008")
+        self.refuse_setting(["tissue.voxel_size", "[1, 1, 1]", "[0.1, 0.1, 0.05]"], "tissue.voxel_size=1")
         self.refuse_setting(["blade.edge", "two points"], "blade.edge=[[0,0,0]]")
         self.refuse_setting(["blade.edge_links", "exactly one"], "blade.edge_links=[heel, tip]")
 
@@ -237,7 +240,8 @@ class Refusals(ReplayTest):
 
     @needs_bags
     def test_bags(self):
-        self.refuse(["none.bag"], "--bag", self.path("none.bag"))
+        self.refuse(["none.bag", "No such file"], "--bag", self.path("none.bag"))
+        self.refuse(["no.bag", "is no bag"], "--bag", self.write("no.bag", "no bag\n" * 100))
         self.refuse(["no topic", "/elsewhere"], "--bag", bag("straight_slice"), "--topic", "/elsewhere")
         with open(bag("straight_slice"), "rb") as file, open(self.path("cut_off.bag"), "wb") as part:
             part.write(file.read(20000))
