@@ -9,9 +9,12 @@ import csv
 import filecmp
 import json
 import os
+import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 REPLAY, PACKAGE = sys.argv[1:3]
@@ -246,6 +249,32 @@ class Refusals(ReplayTest):
         with open(bag("straight_slice"), "rb") as file, open(self.path("cut_off.bag"), "wb") as part:
             part.write(file.read(20000))
         self.refuse(["cut_off.bag", "rosbag reindex"], "--bag", self.path("cut_off.bag"))
+
+
+class Signals(ReplayTest):
+    def test_stopped_run_keeps_what_it_has_apart(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            out = number.name
+            run = subprocess.Popen([REPLAY, "--config", BOX, "--out", self.path(out), "--duration", "1000000"],
+                                   stderr=subprocess.PIPE, universal_newlines=True)
+            self.wait_for_text(os.path.join(self.path(out + ".partial"), "steps.csv"))
+            run.send_signal(number)
+            _, errors = run.communicate(timeout=60)
+            self.assertEqual(run.returncode, 128 + number, errors)
+            self.assertEqual(errors.count("\n"), 1, errors)
+            steps = len(self.rows(out + ".partial", "steps.csv"))
+            for words in (number.name, "after %d steps" % steps, self.path(out + ".partial"), "incomplete"):
+                self.assertIn(words, errors)
+            self.assertNotIn("summary.json", os.listdir(self.path(out + ".partial")))
+            self.assertFalse(os.path.exists(self.path(out)))
+            self.replay(out, "--duration", "0.1")
+            self.assertFalse(os.path.exists(self.path(out + ".partial")))
+
+    def wait_for_text(self, path):
+        end = time.monotonic() + 60
+        while not (os.path.exists(path) and os.path.getsize(path)):
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.05)
 
 
 if __name__ == "__main__":
