@@ -200,6 +200,41 @@ class Cuts(ReplayTest):
             self.assertEqual((differing, missing), ([], []))
 
 
+def nested_keys(figures, prefix=""):
+    for key, value in figures.items():
+        yield from nested_keys(value, prefix + key + ".") if isinstance(value, dict) else [prefix + key]
+
+
+class Documentation(ReplayTest):
+    def test_every_file_column_and_key_is_explained(self):
+        with open(os.path.join(PACKAGE, "doc", "outputs.md")) as file:
+            text = file.read()
+        sections = {title.split(":")[0]: body for title, body in
+                    (section.split("\n", 1) for section in text.split("\n## ")[1:])}
+        options = ["--set", "fracture.mode=immediate", "--set", "probes=[[0.05, 0.05, 0.04]]", "--surface-every", "1"]
+        self.replay("out", *self.stroke(0.03), *options)
+        for name in os.listdir(self.path("out")):
+            self.assertIn(re.sub(r"\d{4}", "0000", name), text)
+            section = sections["timing.csv and timing.json" if name.startswith("timing") else
+                               "Surfaces" if name.endswith(".ply") else name]
+            for key in self.keys("out", name):
+                self.assertIn("`%s`" % key, section, name)
+
+    def keys(self, out, name):
+        """Columns of a table; whole paths of keys, of which distances have the same three at their ends."""
+        with open(os.path.join(self.path(out), name), errors="replace") as file:
+            if name.endswith(".csv"):
+                return next(csv.reader(file))
+            if not name.endswith(".json"):
+                return []
+            keys = set(nested_keys(json.load(file)))
+        for key in [k for k in keys if k.endswith(".samples")]:
+            distances = key[: -len(".samples")]
+            keys -= {distances + end for end in (".max_m", ".mean_m", ".samples")}
+            keys |= {distances, "….max_m", "….mean_m", "….samples"}
+        return keys
+
+
 class Refusals(ReplayTest):
     def refuse(self, words, *arguments, config=BOX):
         done = self.start("refused", *arguments, config=config)
