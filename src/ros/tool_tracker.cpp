@@ -135,15 +135,21 @@ std::optional<ReceivedPose> ToolTracker::take() {
 
 std::map<std::string, Pose> ToolTracker::grips(double time) const {
   std::map<std::string, Pose> poses;
+  std::string unknown;
   for (const std::string& frame : followed_) {
     std::optional<Pose> X_TF = tf_.find(tissue_frame_, frame_name(frame), ros::Time(std::max(time, 0.0)));
     ros::Time stamp;
     if (!X_TF) {
       X_TF = tf_.find_newest(tissue_frame_, frame_name(frame), stamp);
+      if (!X_TF) unknown += (unknown.empty() ? "'" : ", '") + frame + "'";
       if (stamp.toSec() > time) X_TF.reset();  // it is not there yet
     }
     if (X_TF) poses[frame] = *X_TF;
   }
+  if (!unknown.empty())
+    ROS_WARN_DELAYED_THROTTLE(kWarnEvery,
+                              "tissue.fixed: follow: tf has no transform from %s to '%s': the region stays",
+                              unknown.c_str(), tissue_frame_.c_str());
   return poses;
 }
 
