@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <utility>
 
@@ -48,6 +49,10 @@ StampedPose read_pose(const Line& line) {
     if (!parse_number(line.cells[c], v[c]))
       throw FileError(line.place + ": column " + kColumns[c] + ": '" + line.cells[c] +
                       "': must be a finite number");
+  for (int c = 1; c <= 3; ++c)
+    if (std::abs(v[c]) > kFarthestPosition)
+      throw FileError(line.place + ": column " + kColumns[c] + ": " + line.cells[c] + " m: must be within " +
+                      format_number(kFarthestPosition) + " m");
   const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
   if (rotation.norm() < kShortestQuaternion)
     throw FileError(line.place + ": columns qx,qy,qz,qw: 0,0,0,0: must be a rotation, not zero");

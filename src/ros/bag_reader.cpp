@@ -61,6 +61,8 @@ std::set<ros::Time> read_transforms(const rosbag::Bag& bag, tf2::BufferCore& buf
     const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
     if (!transforms) continue;
     for (geometry_msgs::TransformStamped transform : transforms->transforms) {
+      Pose pose;
+      if (!to_pose(transform.transform, pose)) continue;
       transform.header.frame_id = without_slash(transform.header.frame_id);
       transform.child_frame_id = without_slash(transform.child_frame_id);
       buffer.setTransform(transform, "bag", is_static_tf(message.getTopic()));
@@ -106,7 +108,7 @@ std::string list_unused(const PoseCounts& counts, const std::string& tissue, con
     if (count > 0) list += (list.empty() ? "" : ", ") + std::to_string(count) + " " + what;
   };
   add(counts.no_stamp, "without a stamp");
-  add(counts.invalid, "not finite or without a unit quaternion");
+  add(counts.invalid, "not finite, absurdly far away or without a unit quaternion");
   add(counts.received - counts.used - counts.no_stamp - counts.invalid - counts.no_transform, "out of order");
   add(counts.no_transform, "that cannot be brought to frame '" + tissue + "' (" + why_not + ")");
   return list;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cfem_cutting/io/number.h"
+#include "cfem_cutting/io/poses.h"
 
 namespace cfem_cutting {
 namespace {
@@ -20,7 +21,9 @@ std::string list_of(std::initializer_list<double> numbers) {
 
 template <typename Position, typename Rotation>
 std::string find_fault(const Position& p, const Rotation& q) {
-  if (!Vec3(p.x, p.y, p.z).allFinite()) return "position " + list_of({p.x, p.y, p.z}) + " m: must be finite";
+  if (!(Vec3(p.x, p.y, p.z).array().abs() <= kFarthestPosition).all())  // nor NaN
+    return "position " + list_of({p.x, p.y, p.z}) + " m: must be finite and within " +
+           format_number(kFarthestPosition) + " m";
   const double length = Eigen::Vector4d(q.x, q.y, q.z, q.w).norm();
   if (!(std::abs(length - 1.0) <= kUnitTolerance))
     return "quaternion " + list_of({q.x, q.y, q.z, q.w}) + " (x, y, z, w): must be of length 1, to 1 %";

@@ -28,6 +28,7 @@ class BadPosesTest(NodeTest):
             if i % 10 == 5:
                 bad += 1
                 self.poses.publish(make_pose(stamp + 0.001, (NAN, 0, 0)))
+                self.poses.publish(make_pose(stamp + 0.001, (0, 0, 1e9)))
                 self.poses.publish(make_pose(stamp + 0.001, xyz, (0, 0, 0, 0)))
                 self.poses.publish(make_pose(stamp + 0.001, xyz, (0, 0, 0, NAN)))
                 self.poses.publish(make_pose(stamp + 0.001, xyz, (1, 1, 1, 1)))
@@ -37,7 +38,7 @@ class BadPosesTest(NodeTest):
                 self.poses.publish(make_pose(stamp + 0.001, xyz, frame="nowhere"))
         self.wait_for_step(stamp)
         self.assertEqual([(e.unit, e.links_severed) for e in self.all_events()], expected)
-        for key, count in (("invalid", 4), ("no_stamp", 1), ("out_of_order", 2), ("no_transform", 1)):
+        for key, count in (("invalid", 5), ("no_stamp", 1), ("out_of_order", 2), ("no_transform", 1)):
             wanted = int(before[key]) + count * bad
             wait_until(lambda: self.count(key) == wanted, "%s is %d, not %d" % (key, wanted, self.count(key)), 20)
 

@@ -23,7 +23,8 @@ geometry_msgs::Vector3 to_vector(const Vec3& v);
 geometry_msgs::Wrench to_wrench(const Wrench& wrench);
 geometry_msgs::Transform to_transform(const Pose& pose);
 
-/// Pose of a message, if it is one: finite, and with a quaternion of length 1 (to 1 %; it is normalised).
+/// Pose of a message, if it is one: finite, not absurdly far away (kFarthestPosition), and with a quaternion
+/// of length 1 (to 1 %; it is normalised).
 /// @return false if it is none; `pose` is unchanged then
 bool to_pose(const geometry_msgs::Pose& message, Pose& pose);
 bool to_pose(const geometry_msgs::Transform& message, Pose& pose);
