@@ -34,7 +34,8 @@ foreach(node cutting_node tool_path_player)
     RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
   install(TARGETS ${node} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endforeach()
-catkin_install_python(PROGRAMS src/nodes/pace_playback.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+catkin_install_python(PROGRAMS src/nodes/pace_playback.py src/nodes/play_bag.py
+  DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY config launch rviz urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(DIRECTORY test/bags DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/test)
 

@@ -1,7 +1,6 @@
 #include "cfem_cutting/io/config_reader.h"
 
-#include <filesystem>
-
+#include "cfem_cutting/geometry/files.h"
 #include "overrides.h"
 #include "schema.h"
 
@@ -9,11 +8,9 @@ namespace cfem_cutting {
 namespace {
 
 YAML::Node load_yaml(const std::string& path) {
-  if (std::filesystem::is_directory(path)) throw FileError(path + ": is a folder, not a configuration");
+  check_readable(path);
   try {
     return YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw FileError(path + ": cannot be read");
   } catch (const YAML::Exception& error) {
     throw FileError(path + ":" + std::to_string(error.mark.line + 1) + ": not YAML: " + error.msg);
   }

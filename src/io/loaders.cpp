@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "cfem_cutting/geometry/errors.h"
+#include "cfem_cutting/geometry/files.h"
 #include "cfem_cutting/io/config_reader.h"
 
 namespace cfem_cutting {
@@ -25,10 +26,11 @@ Pose placement(const TissueConfig& tissue) {
          Eigen::AngleAxisd(tissue.rpy.y(), Vec3::UnitY()) * Eigen::AngleAxisd(tissue.rpy.x(), Vec3::UnitX());
 }
 
-void check_readable(const std::string& path) {
-  if (!std::filesystem::is_directory(path) && std::ifstream(path)) return;
+void check_source(const std::string& path) {
+  const std::string why = why_unreadable(path);
+  if (why.empty()) return;
   const bool is_fetched = std::filesystem::path(path).parent_path().filename() == "data";
-  throw FileError(path + ": cannot be read" +
+  throw FileError("tissue.source: " + path + ": cannot be read: " + why +
                   (is_fetched ? " (scripts/fetch_data gets the package's data)" : ""));
 }
 
@@ -51,7 +53,7 @@ std::unique_ptr<Shape> load_shape(const TissueConfig& tissue, const PathResolver
         "tissue.source: " + tissue.source +
         ": must be box or end in .stl, .obj, .ply, .off, .inr, .inr.gz, .nrrd, .nii, .nii.gz, .mha or .mhd");
   const std::string path = resolve(tissue.source);
-  check_readable(path);
+  check_source(path);
   if (is_image) return make_label_shape(read_label_image(path), tissue.labels, X_TS, path);
   return make_mesh_shape(read_mesh(path), tissue.scale, X_TS, path);
 }

@@ -66,7 +66,12 @@ OutputFolder::OutputFolder(const std::string& path) : whole_(without_trailing_sl
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
-  fs::remove_all(partial_, ignored);
+  if (!kept_) fs::remove_all(partial_, ignored);
+}
+
+std::string OutputFolder::keep() {
+  kept_ = true;
+  return partial_.string();
 }
 
 std::ofstream OutputFolder::create(const std::string& name) const {

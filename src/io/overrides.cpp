@@ -1,6 +1,7 @@
 #include "overrides.h"
 
 #include <algorithm>
+#include <regex>
 #include <vector>
 
 #include "cfem_cutting/geometry/errors.h"
@@ -13,9 +14,11 @@ bool is_place(const std::string& part) {
          std::all_of(part.begin(), part.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
+/// Places in lists may be written as in error messages: `list[0].key` for `list.0.key`.
 std::vector<std::string> split(const std::string& path) {
+  static const std::regex place(R"(\[(\d+)\])");
   std::vector<std::string> parts{""};
-  for (char c : path)
+  for (char c : std::regex_replace(path, place, ".$1"))
     if (c == '.')
       parts.emplace_back();
     else

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
+#include <cmath>
 #include <fstream>
 #include <utility>
 
 #include "cfem_cutting/blade/blade.h"
 #include "cfem_cutting/geometry/errors.h"
+#include "cfem_cutting/geometry/files.h"
 #include "cfem_cutting/io/number.h"
 
 namespace cfem_cutting {
@@ -48,6 +49,10 @@ StampedPose read_pose(const Line& line) {
     if (!parse_number(line.cells[c], v[c]))
       throw FileError(line.place + ": column " + kColumns[c] + ": '" + line.cells[c] +
                       "': must be a finite number");
+  for (int c = 1; c <= 3; ++c)
+    if (std::abs(v[c]) > kFarthestPosition)
+      throw FileError(line.place + ": column " + kColumns[c] + ": " + line.cells[c] + " m: must be within " +
+                      format_number(kFarthestPosition) + " m");
   const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
   if (rotation.norm() < kShortestQuaternion)
     throw FileError(line.place + ": columns qx,qy,qz,qw: 0,0,0,0: must be a rotation, not zero");
@@ -62,8 +67,8 @@ void check_header(const Line& line) {
 }  // namespace
 
 PoseTrack read_poses_csv(const std::string& path) {
+  check_readable(path);
   std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path)) throw FileError(path + ": cannot be read");
   PoseTrack track;
   std::string text;
   bool header = false;

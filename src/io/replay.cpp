@@ -12,6 +12,7 @@
 #include "cfem_cutting/io/summary.h"
 #include "cfem_cutting/simulation/timeline.h"
 #include "progress.h"
+#include "stop_signals.h"
 
 namespace cfem_cutting {
 namespace {
@@ -141,6 +142,7 @@ struct RunFigures {
   RunStatistics statistics;
   TimingTable timing;
   double wall_time = 0.0;  // s
+  int stopped_by = 0;      // the signal that ended the run, 0: none
 };
 
 RunFigures run_steps(Simulation& simulation, StepSource& steps, const OutputFolder& folder,
@@ -152,6 +154,8 @@ RunFigures run_steps(Simulation& simulation, StepSource& steps, const OutputFold
   Progress progress(steps.length());
   const Clock::time_point start = Clock::now();
   while (const std::optional<StepInput> input = steps.next()) {
+    figures.stopped_by = StopSignals::caught();
+    if (figures.stopped_by != 0) break;
     const Clock::time_point step_start = Clock::now();
     const StepReport report = simulation.step(*input);
     figures.timing.add(report, milliseconds_since(step_start));
@@ -187,6 +191,14 @@ void write_results(const OutputFolder& folder, const Simulation& simulation, con
   write_summary(folder, simulation, figures.statistics, warnings);
 }
 
+/// What was written stays, for who wants to look at it.
+[[noreturn]] void stop(OutputFolder& folder, const RunFigures& figures) {
+  const std::string signal = figures.stopped_by == SIGINT ? "SIGINT" : "SIGTERM";
+  throw Stopped(figures.stopped_by, "stopped by " + signal + " after " +
+                                        std::to_string(figures.statistics.steps) + " steps: the results in " +
+                                        folder.keep() + " are incomplete");
+}
+
 }  // namespace
 
 void run_replay(const ReplayOptions& options, const BagReader& read_bag) {
@@ -196,6 +208,7 @@ void run_replay(const ReplayOptions& options, const BagReader& read_bag) {
   const bool has_blade = !config.blade.edge.empty() || !config.blade.edge_links.empty();
   const Blade blade = has_tool || has_blade ? load_blade(config.blade, resolve) : idle_blade();
   const Recording recording = read_recording(options, read_bag, config.tissue);
+  const StopSignals stop_signals;
   OutputFolder folder(options.out);
   Simulation simulation(config, *load_shape(config.tissue, resolve), blade);
   std::vector<std::string> warnings;
@@ -203,6 +216,7 @@ void run_replay(const ReplayOptions& options, const BagReader& read_bag) {
   warn(simulation.warnings(), warnings);
   StepSource steps(recording, simulation, options.duration);
   const RunFigures figures = run_steps(simulation, steps, folder, options.surface_every);
+  if (figures.stopped_by != 0) stop(folder, figures);
   warn(jump_warnings(steps.jumps()), warnings);
   warn(run_warnings(figures.statistics), warnings);
   write_results(folder, simulation, figures, warnings);

@@ -16,7 +16,9 @@ struct Parsed {
 void declare(CLI::App& app, Parsed& parsed) {
   ReplayOptions& o = parsed.options;
   app.add_option("--config", o.config, "Configuration (YAML)")->type_name("FILE.yaml");
-  app.add_option("--set", o.overrides, "Override a key; may be repeated")
+  app.add_option("--set", o.overrides,
+                 "Override a key, such as tissue.materials[0].density or tissue.materials.0.density; "
+                 "may be repeated")
       ->type_name("key.path=value")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

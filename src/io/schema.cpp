@@ -18,14 +18,15 @@ Field<FractureOptions> criterion_field() {
           {}};
 }
 
-const Rule<Polyline> kEdge{"a list of at least two points [x, y, z], no two in a row equal",
+const Rule<Polyline> kEdge{"a list of at least two points [x, y, z], no two in a row equal, or [] for none",
                            [](const Polyline& edge) {
                              for (std::size_t i = 1; i < edge.size(); ++i)
                                if (edge[i] == edge[i - 1]) return false;
-                             return edge.size() >= 2;
+                             return edge.size() != 1;
                            }};
 const Rule<std::vector<std::string>> kEdgeLinks{
-    "a list of at least two names", [](const std::vector<std::string>& links) { return links.size() >= 2; }};
+    "a list of at least two names, or [] for none",
+    [](const std::vector<std::string>& links) { return links.size() != 1; }};
 const Rule<std::vector<Vec3>> kPoints{"a list of points [x, y, z]",
                                       [](const std::vector<Vec3>&) { return true; }};
 

@@ -4,6 +4,7 @@
 
 #include "cfem_cutting/blade/blade.h"
 #include "cfem_cutting/geometry/errors.h"
+#include "cfem_cutting/geometry/files.h"
 
 namespace cfem_cutting {
 namespace {
@@ -68,6 +69,7 @@ Pose ToolPath::at(double time) const {
 }
 
 ToolPaths read_tool_paths(const std::string& file) {
+  check_readable(file);
   try {
     const YAML::Node yaml = YAML::LoadFile(file);
     if (!yaml.IsMap() || !yaml["tool"]) throw ConfigError("'tool' is needed");
@@ -80,8 +82,6 @@ ToolPaths read_tool_paths(const std::string& file) {
       paths.others.emplace_back(other, "others[" + std::to_string(paths.others.size()) + "]");
     }
     return paths;
-  } catch (const YAML::BadFile&) {
-    throw FileError(file + ": cannot be read");
   } catch (const YAML::Exception& error) {
     throw ConfigError(file + ": " + error.what());
   } catch (const ConfigError& error) {

@@ -11,21 +11,22 @@ namespace {
 
 constexpr std::size_t kLongestValueShown = 80;
 
-/// A copy that is written in one line.
-YAML::Node in_flow(const YAML::Node& node) {
-  YAML::Node copy = YAML::Clone(node);
-  copy.SetStyle(YAML::EmitterStyle::Flow);
+/// Has a node and all below it written in one line.
+void set_flow(YAML::Node node) {
+  node.SetStyle(YAML::EmitterStyle::Flow);
   if (node.IsSequence())
-    for (std::size_t i = 0; i < node.size(); ++i) copy[i] = in_flow(node[i]);
+    for (const YAML::Node& item : node) set_flow(item);
   if (node.IsMap())
-    for (const auto& entry : node) copy[entry.first] = in_flow(entry.second);
-  return copy;
+    for (const auto& entry : node) set_flow(entry.second);
 }
 
 std::string shown(const YAML::Node& node) {
+  if (!node.IsDefined()) return "nothing";
+  const YAML::Node copy = YAML::Clone(node);
+  set_flow(copy);
   YAML::Emitter emitter;
-  if (node.IsDefined()) emitter << in_flow(node);
-  std::string text = node.IsDefined() ? emitter.c_str() : "nothing";
+  emitter << copy;
+  std::string text = emitter.c_str();
   for (char& c : text)
     if (c == '\n' || c == '\r') c = ' ';
   return text.size() > kLongestValueShown ? text.substr(0, kLongestValueShown) + "…" : text;

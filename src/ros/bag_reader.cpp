@@ -8,12 +8,13 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <optional>
 #include <set>
 
 #include "cfem_cutting/geometry/errors.h"
+#include "cfem_cutting/geometry/files.h"
 #include "cfem_cutting/ros/conversions.h"
 #include "cfem_cutting/ros/pose_queue.h"
 
@@ -60,6 +61,8 @@ std::set<ros::Time> read_transforms(const rosbag::Bag& bag, tf2::BufferCore& buf
     const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
     if (!transforms) continue;
     for (geometry_msgs::TransformStamped transform : transforms->transforms) {
+      Pose pose;
+      if (!to_pose(transform.transform, pose)) continue;
       transform.header.frame_id = without_slash(transform.header.frame_id);
       transform.child_frame_id = without_slash(transform.child_frame_id);
       buffer.setTransform(transform, "bag", is_static_tf(message.getTopic()));
@@ -105,7 +108,7 @@ std::string list_unused(const PoseCounts& counts, const std::string& tissue, con
     if (count > 0) list += (list.empty() ? "" : ", ") + std::to_string(count) + " " + what;
   };
   add(counts.no_stamp, "without a stamp");
-  add(counts.invalid, "not finite or without a unit quaternion");
+  add(counts.invalid, "not finite, absurdly far away or without a unit quaternion");
   add(counts.received - counts.used - counts.no_stamp - counts.invalid - counts.no_transform, "out of order");
   add(counts.no_transform, "that cannot be brought to frame '" + tissue + "' (" + why_not + ")");
   return list;
@@ -162,10 +165,19 @@ Recording read_open_bag(const rosbag::Bag& bag, const BagRequest& request) {
   return recording;
 }
 
+/// Whatever follows: a bag may have been cut off.
+void check_beginning(const std::string& path) {
+  check_readable(path);
+  const std::string wanted = "#ROS";  // #ROSBAG V2.0, or #ROSRECORD in older ones
+  std::string beginning(wanted.size(), ' ');
+  std::ifstream(path, std::ios::binary).read(&beginning[0], static_cast<std::streamsize>(wanted.size()));
+  if (beginning != wanted) throw FileError(path + ": is no bag: must begin with #ROSBAG");
+}
+
 }  // namespace
 
 Recording read_bag(const BagRequest& request) {
-  if (!std::filesystem::is_regular_file(request.path)) throw FileError(request.path + ": cannot be read");
+  check_beginning(request.path);
   try {
     rosbag::Bag bag;
     bag.open(request.path, rosbag::bagmode::Read);

@@ -2,20 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+
+#include "cfem_cutting/io/number.h"
+#include "cfem_cutting/io/poses.h"
 
 namespace cfem_cutting {
 namespace {
 
 constexpr double kUnitTolerance = 0.01;  // of a quaternion's length
 
+std::string list_of(std::initializer_list<double> numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : ", ") + format_number(number);
+  return "[" + text + "]";
+}
+
 template <typename Position, typename Rotation>
-bool read_pose(const Position& position, const Rotation& rotation, Pose& pose) {
-  const Vec3 p(position.x, position.y, position.z);
-  Eigen::Quaterniond q(rotation.w, rotation.x, rotation.y, rotation.z);
-  if (!p.allFinite() || !q.coeffs().allFinite() || std::abs(q.norm() - 1.0) > kUnitTolerance) return false;
-  q.normalize();
-  pose = Eigen::Translation3d(p) * q;
+std::string find_fault(const Position& p, const Rotation& q) {
+  if (!(Vec3(p.x, p.y, p.z).array().abs() <= kFarthestPosition).all())  // nor NaN
+    return "position " + list_of({p.x, p.y, p.z}) + " m: must be finite and within " +
+           format_number(kFarthestPosition) + " m";
+  const double length = Eigen::Vector4d(q.x, q.y, q.z, q.w).norm();
+  if (!(std::abs(length - 1.0) <= kUnitTolerance))
+    return "quaternion " + list_of({q.x, q.y, q.z, q.w}) + " (x, y, z, w): must be of length 1, to 1 %";
+  return "";
+}
+
+template <typename Position, typename Rotation>
+bool read_pose(const Position& p, const Rotation& q, Pose& pose) {
+  if (!find_fault(p, q).empty()) return false;
+  pose = Eigen::Translation3d(p.x, p.y, p.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
   return true;
 }
 
@@ -76,6 +94,14 @@ bool to_pose(const geometry_msgs::Pose& message, Pose& pose) {
 
 bool to_pose(const geometry_msgs::Transform& message, Pose& pose) {
   return read_pose(message.translation, message.rotation, pose);
+}
+
+std::string fault_of(const geometry_msgs::Pose& message) {
+  return find_fault(message.position, message.orientation);
+}
+
+std::string fault_of(const geometry_msgs::Transform& message) {
+  return find_fault(message.translation, message.rotation);
 }
 
 std::string frame_name(const std::string& frame_id) {

@@ -5,6 +5,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 
 #include "cfem_cutting/geometry/errors.h"
@@ -71,7 +72,7 @@ void play_all() {
   const std::string file = settings.param<std::string>("path", "");
   if (file.empty()) throw ConfigError("the parameter ~path, a file of config/paths, is needed");
   const bool repeat = settings.param("repeat", false);
-  Player player(read_tool_paths(ros_path_resolver()(file)));
+  Player player(read_tool_paths(std::filesystem::absolute(ros_path_resolver()(file))));
   if (settings.param("wait_for_subscriber", true)) player.wait_for_subscriber();
   while (ros::ok() && ros::Time::now().isZero()) ros::WallDuration(0.02).sleep();
   ros::Time start = ros::Time::now();
@@ -80,6 +81,7 @@ void play_all() {
     start += ros::Duration(player.duration());
   } while (repeat && ros::ok());
   ros::WallDuration(0.5).sleep();  // the last messages are on their way
+  if (settings.param("stay", false)) ros::waitForShutdown();
 }
 
 }  // namespace

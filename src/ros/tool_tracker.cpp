@@ -55,13 +55,13 @@ ToolTracker::ToolTracker(ros::NodeHandle& node, const Config& config)
 }
 
 std::string ToolTracker::source() const {
-  if (config_.pose_input == PoseInput::kTf) return "the frame " + config_.tool_frame + " in tf";
+  if (config_.pose_input == PoseInput::kTf) return "poses of the frame " + config_.tool_frame + " in tf";
   return "poses on " + subscriber_.getTopic();
 }
 
-void ToolTracker::refuse_pose() {
+void ToolTracker::refuse_pose(const std::string& fault) {
   queue_.count_invalid();
-  ROS_WARN_THROTTLE(kWarnEvery, "tool/measured_cp: poses left out: not finite, or no unit quaternion");
+  ROS_WARN_THROTTLE(kWarnEvery, "Left out %s; the last one's %s", source().c_str(), fault.c_str());
 }
 
 void ToolTracker::receive_pose(const geometry_msgs::PoseStamped& message) {
@@ -69,7 +69,7 @@ void ToolTracker::receive_pose(const geometry_msgs::PoseStamped& message) {
   if (to_pose(message.pose, pose)) {
     offer(message.header, pose);
   } else {
-    refuse_pose();
+    refuse_pose(fault_of(message.pose));
   }
 }
 
@@ -78,7 +78,7 @@ void ToolTracker::receive_transform(const geometry_msgs::TransformStamped& messa
   if (to_pose(message.transform, pose)) {
     offer(message.header, pose);
   } else {
-    refuse_pose();
+    refuse_pose(fault_of(message.transform));
   }
 }
 
@@ -104,7 +104,9 @@ void ToolTracker::receive_tf(const tf2_msgs::TFMessage& message) {
 }
 
 void ToolTracker::offer(const std_msgs::Header& header, const Pose& pose) {
-  if (header.stamp.isZero()) ROS_WARN_THROTTLE(kWarnEvery, "tool/measured_cp: poses left out: no stamp");
+  if (header.stamp.isZero())
+    ROS_WARN_THROTTLE(kWarnEvery, "Left out %s with the stamp 0: must be the time of the pose",
+                      source().c_str());
   queue_.push({header.stamp, frame_name(header.frame_id), pose, std::chrono::steady_clock::now()});
   place_all();
 }
@@ -117,8 +119,8 @@ PoseQueue::Placing ToolTracker::place(ReceivedPose& pose) const {
     return PoseQueue::Placing::kPlaced;
   }
   if (seconds_since(pose.arrival) <= patience_) return PoseQueue::Placing::kWait;
-  ROS_WARN_THROTTLE(kWarnEvery, "Poses left out: tf has no transform from '%s' to '%s' at %.3f s",
-                    pose.frame.c_str(), tissue_frame_.c_str(), pose.stamp.toSec());
+  ROS_WARN_THROTTLE(kWarnEvery, "Left out %s: tf has no transform from '%s' to '%s' at %.3f s",
+                    source().c_str(), pose.frame.c_str(), tissue_frame_.c_str(), pose.stamp.toSec());
   return PoseQueue::Placing::kGiveUp;
 }
 
@@ -133,15 +135,21 @@ std::optional<ReceivedPose> ToolTracker::take() {
 
 std::map<std::string, Pose> ToolTracker::grips(double time) const {
   std::map<std::string, Pose> poses;
+  std::string unknown;
   for (const std::string& frame : followed_) {
     std::optional<Pose> X_TF = tf_.find(tissue_frame_, frame_name(frame), ros::Time(std::max(time, 0.0)));
     ros::Time stamp;
     if (!X_TF) {
       X_TF = tf_.find_newest(tissue_frame_, frame_name(frame), stamp);
+      if (!X_TF) unknown += (unknown.empty() ? "'" : ", '") + frame + "'";
       if (stamp.toSec() > time) X_TF.reset();  // it is not there yet
     }
     if (X_TF) poses[frame] = *X_TF;
   }
+  if (!unknown.empty())
+    ROS_WARN_DELAYED_THROTTLE(kWarnEvery,
+                              "tissue.fixed: follow: tf has no transform from %s to '%s': the region stays",
+                              unknown.c_str(), tissue_frame_.c_str());
   return poses;
 }
 

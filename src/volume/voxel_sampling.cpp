@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "cfem_cutting/geometry/errors.h"
 #include "cfem_cutting/volume/voxel_volume.h"
@@ -26,6 +27,15 @@ void refuse_too_many(const Vec3& size, std::int64_t max_voxels) {
   throw GeometryError(std::to_string(static_cast<std::int64_t>(std::min(count, 9e18))) +
                       " voxels: more than " + std::to_string(max_voxels) +
                       "; raise tissue.voxel_size, or check tissue.scale");
+}
+
+[[noreturn]] void refuse_too_large(const Vec3& spacing, const Vec3& extent) {
+  const Eigen::IOFormat list(6, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "] m");
+  std::ostringstream message;
+  message << "tissue.voxel_size: " << spacing.transpose().format(list)
+          << ": no voxel's centre lies in the tissue, whose extent is " << extent.transpose().format(list)
+          << ": must be less";
+  throw GeometryError(message.str());
 }
 
 /// Faces at multiples of the spacing from the tissue frame's origin; an empty layer all around.
@@ -139,7 +149,7 @@ VoxelVolume VoxelVolume::sample(const Shape& shape, const Vec3& spacing, std::in
   volume.lattice_ = covering_lattice(shape.bounds(), spacing, max_voxels);
   volume.voxels_ = sample_voxels(shape, volume.lattice_);
   if (std::none_of(volume.voxels_.begin(), volume.voxels_.end(), [](const Voxel& v) { return v.linked(); }))
-    throw GeometryError("tissue shape: no voxel centre lies in tissue; lower tissue.voxel_size");
+    refuse_too_large(spacing, shape.bounds().sizes());
   volume.host_unlinked_voxels();
   volume.link_voxels(shape);
   return volume;

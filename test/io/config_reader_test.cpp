@@ -41,16 +41,28 @@ TEST(ConfigReader, NamesUnknownKeysAndTheNearestKnownOne) {
   EXPECT_EQ(refusal("tissue: {scale: 1, scale: 2}"), "tissue.scale: is given twice");
 }
 
+TEST(ConfigReader, WritesBadMappingsOnce) {
+  EXPECT_EQ(refusal("tissue:\n  fixed:\n    - box:\n        min: [0, 0, 2]\n        max: [1, 1, 1]\n"),
+            "tissue.fixed[0].box: {min: [0, 0, 2], max: [1, 1, 1]}: must be a box with min <= max");
+}
+
 TEST(ConfigReader, WritesBadListsInOneLine) {
   EXPECT_EQ(refusal("blade:\n  edge:\n    - [0, 0, 0]\n    -\n      - 0\n      - x\n"),
             "blade.edge: [[0, 0, 0], [0, x]]: must be a list of at least two points [x, y, z], no two in a "
-            "row equal");
+            "row equal, or [] for none");
 }
 
 TEST(ConfigReader, WantsExactlyOneEdge) {
   EXPECT_NE(refusal("blade: {friction: 0.1}").find("exactly one"), std::string::npos);
   EXPECT_NE(refusal("blade: {edge: [[0, 0, 0], [1, 0, 0]], edge_links: [a, b]}").find("exactly one"),
             std::string::npos);
+}
+
+TEST(ConfigReader, AnEmptyListIsNoEdge) {
+  EXPECT_NE(refusal("blade: {edge: [], edge_links: []}").find("neither is given"), std::string::npos);
+  const auto config = read_config(YAML::Load("blade: {edge: [], edge_links: [heel, tip]}"));
+  EXPECT_TRUE(config.simulation.blade.edge.empty());
+  EXPECT_EQ(config.simulation.blade.edge_links, (std::vector<std::string>{"heel", "tip"}));
 }
 
 TEST(ConfigReader, ReadsNumbersInAnyForm) {
@@ -74,6 +86,17 @@ TEST(ConfigReader, ReadsTheSampleConfigurationsWithOverrides) {
     ++files;
   }
   EXPECT_GE(files, 3);
+}
+
+TEST(ConfigReader, PlacesInListsAreOverriddenInBrackets) {
+  const std::string path = testing::TempDir() + "materials.yaml";
+  std::ofstream(path) << "tissue: {materials: [{label: 1}, {label: 2}]}\n";
+  const auto materials =
+      read_config_file(path, {"tissue.materials[1].density=900"}).simulation.tissue.materials;
+  EXPECT_EQ(materials.at(1).density, 900.0);
+  EXPECT_NE(materials.at(0).density, 900.0);
+  EXPECT_THROW(read_config_file(path, {"tissue.materials[].density=900"}), ConfigError);
+  EXPECT_THROW(read_config_file(path, {"[0].density=900"}), ConfigError);
 }
 
 TEST(ConfigReader, NamesFileAndLineOfASyntaxError) {

@@ -30,6 +30,8 @@ TEST(Poses, AreRefusedByLineAndColumn) {
             ":3: column y: 'zero': must be a finite number");
   EXPECT_EQ(poses_refusal(kHeader + "0,0,0,0,0,0,0,0\n").rfind(":2: columns qx,qy,qz,qw", 0), 0u);
   EXPECT_EQ(poses_refusal(kHeader + "1,0,0,0,0,0,0,1\n1,0,0,0,0,0,0,1\n").rfind(":3: column t: 1: ", 0), 0u);
+  EXPECT_EQ(poses_refusal(kHeader + "0,0,-2e6,0,0,0,0,1\n"),
+            ":2: column y: -2e6 m: must be within 1000000 m");
   EXPECT_EQ(poses_refusal("x,y\n").rfind(":1: ", 0), 0u);
   EXPECT_EQ(poses_refusal(kHeader), ": holds no poses");
   EXPECT_EQ(poses_refusal(kHeader + "0,0,0,0,0,0,0,2\r\n"), "");

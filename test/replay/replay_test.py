@@ -9,9 +9,12 @@ import csv
 import filecmp
 import json
 import os
+import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 REPLAY, PACKAGE = sys.argv[1:3]
@@ -83,6 +86,12 @@ class Cuts(ReplayTest):
             self.assertAlmostEqual(through["cut_area_m2"], 0.1 * 0.05, delta=0.02 * 0.1 * 0.05)
             self.assertTrue(through["surface"]["closed"] and through["surface"]["manifold"])
             self.assertEqual(self.replay("stopped", *self.stroke(0.010), *options)["pieces"], 1, level)
+
+    def test_links_of_a_urdf_take_the_place_of_the_configured_edge(self):
+        urdf = os.path.join(PACKAGE, "urdf", "scalpel_no11.urdf")
+        blade = ("blade.edge=[]", "blade.edge_links=[heel, tip]", "blade.urdf=" + urdf)
+        summary = self.replay("out", "--duration", "0.02", *[o for s in blade for o in ("--set", s)])
+        self.assertEqual(summary["steps"], 2)
 
     def test_immediate_mode_fractures_in_every_step_that_meets_links(self):
         self.replay("out", *self.stroke(0.01), "--set", "fracture.mode=immediate")
@@ -191,6 +200,41 @@ class Cuts(ReplayTest):
             self.assertEqual((differing, missing), ([], []))
 
 
+def nested_keys(figures, prefix=""):
+    for key, value in figures.items():
+        yield from nested_keys(value, prefix + key + ".") if isinstance(value, dict) else [prefix + key]
+
+
+class Documentation(ReplayTest):
+    def test_every_file_column_and_key_is_explained(self):
+        with open(os.path.join(PACKAGE, "doc", "outputs.md")) as file:
+            text = file.read()
+        sections = {title.split(":")[0]: body for title, body in
+                    (section.split("\n", 1) for section in text.split("\n## ")[1:])}
+        options = ["--set", "fracture.mode=immediate", "--set", "probes=[[0.05, 0.05, 0.04]]", "--surface-every", "1"]
+        self.replay("out", *self.stroke(0.03), *options)
+        for name in os.listdir(self.path("out")):
+            self.assertIn(re.sub(r"\d{4}", "0000", name), text)
+            section = sections["timing.csv and timing.json" if name.startswith("timing") else
+                               "Surfaces" if name.endswith(".ply") else name]
+            for key in self.keys("out", name):
+                self.assertIn("`%s`" % key, section, name)
+
+    def keys(self, out, name):
+        """Columns of a table; whole paths of keys, of which distances have the same three at their ends."""
+        with open(os.path.join(self.path(out), name), errors="replace") as file:
+            if name.endswith(".csv"):
+                return next(csv.reader(file))
+            if not name.endswith(".json"):
+                return []
+            keys = set(nested_keys(json.load(file)))
+        for key in [k for k in keys if k.endswith(".samples")]:
+            distances = key[: -len(".samples")]
+            keys -= {distances + end for end in (".max_m", ".mean_m", ".samples")}
+            keys |= {distances, "….max_m", "….mean_m", "….samples"}
+        return keys
+
+
 class Refusals(ReplayTest):
     def refuse(self, words, *arguments, config=BOX):
         done = self.start("refused", *arguments, config=config)
@@ -211,7 +255,9 @@ class Refusals(ReplayTest):
     def test_files(self):
         self.refuse(["none.yaml"], "--duration", "1", config=self.path("none.yaml"))
         self.refuse(["none.csv"], "--poses", self.path("none.csv"))
-        self.refuse_setting(["none.off"], "tissue.source=" + self.path("none.off"))
+        self.refuse_setting(["tissue.source", "none.off", "No such file"], "tissue.source=" + self.path("none.off"))
+        os.mkdir(self.path("folder.off"))
+        self.refuse_setting(["folder.off", "Is a directory"], "tissue.source=" + self.path("folder.off"))
         self.refuse_setting(["open.off", "open edges"], "tissue.source=" + self.write("open.off", OPEN_MESH))
         text = "t,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n1,0,many,0,0,0,0,1\n"
         self.refuse(["bad.csv:3", "column y", "many"], "--poses", self.write("bad.csv", text))
@@ -222,6 +268,7 @@ class Refusals(ReplayTest):
         self.refuse_setting(["poisson_ratio", "0.5"], "tissue.materials=[{poisson_ratio: 0.5}]")
         self.refuse_setting(["tissue.voxel_size", "-0.004"], "tissue.voxel_size=-0.004")
         self.refuse_setting(["voxels", "tissue.voxel_size"], "tissue.voxel_size=0.00008")
+        self.refuse_setting(["tissue.voxel_size", "[1, 1, 1]", "[0.1, 0.1, 0.05]"], "tissue.voxel_size=1")
         self.refuse_setting(["blade.edge", "two points"], "blade.edge=[[0,0,0]]")
         self.refuse_setting(["blade.edge_links", "exactly one"], "blade.edge_links=[heel, tip]")
 
@@ -231,11 +278,38 @@ class Refusals(ReplayTest):
 
     @needs_bags
     def test_bags(self):
-        self.refuse(["none.bag"], "--bag", self.path("none.bag"))
+        self.refuse(["none.bag", "No such file"], "--bag", self.path("none.bag"))
+        self.refuse(["no.bag", "is no bag"], "--bag", self.write("no.bag", "no bag\n" * 100))
         self.refuse(["no topic", "/elsewhere"], "--bag", bag("straight_slice"), "--topic", "/elsewhere")
         with open(bag("straight_slice"), "rb") as file, open(self.path("cut_off.bag"), "wb") as part:
             part.write(file.read(20000))
         self.refuse(["cut_off.bag", "rosbag reindex"], "--bag", self.path("cut_off.bag"))
+
+
+class Signals(ReplayTest):
+    def test_stopped_run_keeps_what_it_has_apart(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            out = number.name
+            run = subprocess.Popen([REPLAY, "--config", BOX, "--out", self.path(out), "--duration", "1000000"],
+                                   stderr=subprocess.PIPE, universal_newlines=True)
+            self.wait_for_text(os.path.join(self.path(out + ".partial"), "steps.csv"))
+            run.send_signal(number)
+            _, errors = run.communicate(timeout=60)
+            self.assertEqual(run.returncode, 128 + number, errors)
+            self.assertEqual(errors.count("\n"), 1, errors)
+            steps = len(self.rows(out + ".partial", "steps.csv"))
+            for words in (number.name, "after %d steps" % steps, self.path(out + ".partial"), "incomplete"):
+                self.assertIn(words, errors)
+            self.assertNotIn("summary.json", os.listdir(self.path(out + ".partial")))
+            self.assertFalse(os.path.exists(self.path(out)))
+            self.replay(out, "--duration", "0.1")
+            self.assertFalse(os.path.exists(self.path(out + ".partial")))
+
+    def wait_for_text(self, path):
+        end = time.monotonic() + 60
+        while not (os.path.exists(path) and os.path.getsize(path)):
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.05)
 
 
 if __name__ == "__main__":

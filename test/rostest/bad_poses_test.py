@@ -5,6 +5,7 @@ import time
 
 import rospy
 import rostest
+from rosgraph_msgs.msg import Log
 
 from node_test import NodeTest, force, is_zero, make_pose, slice_poses, wait_until
 
@@ -27,6 +28,7 @@ class BadPosesTest(NodeTest):
             if i % 10 == 5:
                 bad += 1
                 self.poses.publish(make_pose(stamp + 0.001, (NAN, 0, 0)))
+                self.poses.publish(make_pose(stamp + 0.001, (0, 0, 1e9)))
                 self.poses.publish(make_pose(stamp + 0.001, xyz, (0, 0, 0, 0)))
                 self.poses.publish(make_pose(stamp + 0.001, xyz, (0, 0, 0, NAN)))
                 self.poses.publish(make_pose(stamp + 0.001, xyz, (1, 1, 1, 1)))
@@ -36,9 +38,22 @@ class BadPosesTest(NodeTest):
                 self.poses.publish(make_pose(stamp + 0.001, xyz, frame="nowhere"))
         self.wait_for_step(stamp)
         self.assertEqual([(e.unit, e.links_severed) for e in self.all_events()], expected)
-        for key, count in (("invalid", 4), ("no_stamp", 1), ("out_of_order", 2), ("no_transform", 1)):
+        for key, count in (("invalid", 5), ("no_stamp", 1), ("out_of_order", 2), ("no_transform", 1)):
             wanted = int(before[key]) + count * bad
             wait_until(lambda: self.count(key) == wanted, "%s is %d, not %d" % (key, wanted, self.count(key)), 20)
+
+    def test_console_names_topic_value_and_rule(self):
+        lines = []
+        subscriber = rospy.Subscriber("/rosout", Log, lambda log: lines.append(log.msg))
+        bad = (((NAN, 0, 0), (0, 0, 0, 1), ["/tool/measured_cp", "[nan, 0, 0]", "must be finite"]),
+               ((0, 0, 0), (0, 0, 0, 2), ["/tool/measured_cp", "[0, 0, 0, 2]", "must be of length 1"]))
+        for xyz, quaternion, words in bad:
+            end = time.monotonic() + 30
+            while time.monotonic() < end and not any(all(word in line for word in words) for line in lines):
+                self.poses.publish(make_pose(7000, xyz, quaternion))
+                time.sleep(0.1)
+            self.assertLess(time.monotonic(), end, (words, lines))
+        subscriber.unregister()
 
     def jumps(self):
         return int(self.diagnostics.get("simulation", {}).get("jumps", -1))

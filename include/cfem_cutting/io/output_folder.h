@@ -11,7 +11,7 @@ class OutputFolder {
  public:
   /// @throw FileError the path is a file, or nothing can be written there
   explicit OutputFolder(const std::string& path);
-  /// Removes what was not published.
+  /// Removes what was neither published nor kept.
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -27,9 +27,14 @@ class OutputFolder {
   /// @throw FileError
   void publish();
 
+  /// Leaves the files where they were written, until the next run with this path.
+  /// @return where that is
+  std::string keep();
+
  private:
   std::filesystem::path whole_;
   std::filesystem::path partial_;
+  bool kept_ = false;
 };
 
 /// Closes a written file.

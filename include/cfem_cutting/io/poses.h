@@ -8,6 +8,9 @@
 
 namespace cfem_cutting {
 
+/// m, along an axis; a pose farther from its frame's origin is taken for a mistake.
+constexpr double kFarthestPosition = 1e6;
+
 struct StampedPose {
   double time;  ///< s
   Pose pose;    ///< in the tissue frame

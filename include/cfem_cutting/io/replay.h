@@ -21,7 +21,7 @@ using BagReader = std::function<Recording(const BagRequest&)>;
 
 /// `replay` as a function: no error leaves it. Errors go to standard error, one line each.
 /// @param read_bag empty: bags are refused
-/// @return the exit code, 0 or 2
+/// @return the exit code: 0, 2 for bad input, or 128 + the number of the SIGINT or SIGTERM that ended the run
 int replay_main(int argc, const char* const* argv, const BagReader& read_bag);
 
 /// Runs a simulation over recorded poses and writes all results.

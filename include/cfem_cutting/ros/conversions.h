@@ -23,10 +23,15 @@ geometry_msgs::Vector3 to_vector(const Vec3& v);
 geometry_msgs::Wrench to_wrench(const Wrench& wrench);
 geometry_msgs::Transform to_transform(const Pose& pose);
 
-/// Pose of a message, if it is one: finite, and with a quaternion of length 1 (to 1 %; it is normalised).
+/// Pose of a message, if it is one: finite, not absurdly far away (kFarthestPosition), and with a quaternion
+/// of length 1 (to 1 %; it is normalised).
 /// @return false if it is none; `pose` is unchanged then
 bool to_pose(const geometry_msgs::Pose& message, Pose& pose);
 bool to_pose(const geometry_msgs::Transform& message, Pose& pose);
+
+/// Why to_pose refuses a message: value and rule; empty if it does not.
+std::string fault_of(const geometry_msgs::Pose& message);
+std::string fault_of(const geometry_msgs::Transform& message);
 
 /// Name of a frame without the leading slash of tf's first version.
 std::string frame_name(const std::string& frame_id);

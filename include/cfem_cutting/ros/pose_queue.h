@@ -27,7 +27,7 @@ struct ReceivedPose {
 struct PoseCounts {
   std::uint64_t received = 0;
   std::uint64_t used = 0;
-  std::uint64_t invalid = 0;       ///< not finite, or no unit quaternion
+  std::uint64_t invalid = 0;       ///< not finite, absurdly far away, or no unit quaternion
   std::uint64_t no_stamp = 0;      ///< stamp zero: invalid by CRTK's convention
   std::uint64_t out_of_order = 0;  ///< not later than the pose before
   std::uint64_t no_transform = 0;  ///< tf could not bring them to the tissue frame in time

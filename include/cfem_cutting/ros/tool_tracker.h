@@ -43,7 +43,7 @@ class ToolTracker {
   double patience() const { return patience_; }
 
  private:
-  void refuse_pose();
+  void refuse_pose(const std::string& fault);
   void receive_pose(const geometry_msgs::PoseStamped& message);
   void receive_transform(const geometry_msgs::TransformStamped& message);
   void receive_tf(const tf2_msgs::TFMessage& message);
