@@ -61,26 +61,42 @@ static inline void multiply_whole(const KERNEL_SCALAR* K, const Vector* u, Vecto
   }
 }
 
-/// Each entry below the diagonal serves twice.
+/// The lower triangle's entry in row i and column j ≤ i, of one lane after the other.
+static inline const KERNEL_SCALAR* entry(const KERNEL_SCALAR* K, int i, int j) {
+  return K + 16 * (24 * j - j * (j + 1) / 2 + i);
+}
+
+/// Each entry below the diagonal serves twice. Some columns at once, whose sums stay in registers.
 static inline void multiply_triangles(const KERNEL_SCALAR* K, const Vector* u, Vector* f) {
+  constexpr int kColumns = 4;
   Vector sum[24] = {};
-#pragma GCC unroll 24
-  for (int j = 0; j < 24; ++j) {
-    const KERNEL_SCALAR* column = K + 16 * (24 * j - j * (j - 1) / 2);
-    Vector even = load(column) * u[j], odd = {};
-#pragma GCC unroll 24
-    for (int i = j + 1; i < 24; ++i) {
-      const Vector k = load(column + 16 * (i - j));
-      sum[i] += k * u[j];
-      if (i & 1) {
-        odd += k * u[i];
-      } else {
-        even += k * u[i];
-      }
+#pragma GCC unroll 6
+  for (int j = 0; j < 24; j += kColumns) {
+    Vector own[kColumns];
+#pragma GCC unroll 4
+    for (int c = 0; c < kColumns; ++c) {
+      own[c] = sum[j + c];
+#pragma GCC unroll 4
+      for (int r = 0; r < kColumns; ++r)
+        own[c] += load(r < c ? entry(K, j + c, j + r) : entry(K, j + r, j + c)) * u[j + r];
     }
-    sum[j] += even + odd;
+    for (int i = j + kColumns; i < 24; ++i) {
+      Vector even = sum[i], odd = {};
+#pragma GCC unroll 4
+      for (int c = 0; c < kColumns; ++c) {
+        const Vector k = load(entry(K, i, j + c));
+        own[c] += k * u[i];
+        if (c & 1) {
+          odd += k * u[j + c];
+        } else {
+          even += k * u[j + c];
+        }
+      }
+      sum[i] = even + odd;
+    }
+#pragma GCC unroll 4
+    for (int c = 0; c < kColumns; ++c) f[j + c] = own[c];
   }
-  for (int i = 0; i < 24; ++i) f[i] = sum[i];
 }
 
 /// f = K u by a form that is not mirrored, of lanes from `lane` on of a batch.

@@ -255,9 +255,7 @@ class ChainFinder {
       if (chain[i].continues || (after - before).norm() > kWidestGap * h_) continue;
       const bool first = i == 1, last = i + 1 == chain.size();
       if (first && last) continue;
-      before = after = first  ? before
-                       : last ? after
-                              : project(trace_.points, 0.5 * (before + after)).point;
+      before = after = first ? before : last ? after : project(trace_.points, 0.5 * (before + after)).point;
     }
   }
 
