@@ -20,7 +20,7 @@ fs::path without_trailing_slash(const std::string& path) {
 
 bool is_result(const std::string& name) {
   static const std::regex results(
-      R"((steps|events|probes|links|timing)\.csv|(summary|timing)\.json|surface_(final|rest|\d{4,})\.ply)");
+      R"((steps|events|front|probes|links|timing)\.csv|(summary|timing)\.json|surface_(final|rest|\d{4,})\.ply)");
   return std::regex_match(name, results);
 }
 

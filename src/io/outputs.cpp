@@ -19,6 +19,7 @@ void add_event(std::ostream& stream, const FractureEvent& event) {
 RunTables::RunTables(const OutputFolder& folder, std::size_t probes)
     : steps_(folder.create("steps.csv")),
       events_(folder.create("events.csv")),
+      front_(folder.create("front.csv")),
       probes_(folder.create("probes.csv")) {
   steps_ << "t,phase,unit,max_offset,candidates,links_severed,area,pieces,fx,fy,fz,mx,my,mz,blade_work,"
             "iterations,"
@@ -26,18 +27,26 @@ RunTables::RunTables(const OutputFolder& folder, std::size_t probes)
   events_ << "t,unit,links_severed,area,largest_offset,fracture_work,blade_work,peak_force,cx,cy,cz,nx,ny,nz,"
              "pieces,"
              "separated\n";
+  front_ << "t,crease_max,crease_samples,cut_end_max,cut_end_samples,covered_max,covered_samples,"
+            "buried_samples\n";
   CsvRow header(probes_);
   header << std::string("t");
   for (std::size_t p = 0; p < probes; ++p)
     for (const char* axis : {"x", "y", "z"}) header << "u" + std::string(axis) + std::to_string(p);
 }
 
-void RunTables::add(const StepReport& report, const std::vector<Vec3>& probe_displacements) {
+void RunTables::add(const StepReport& report, const FrontFidelity& front,
+                    const std::vector<Vec3>& probe_displacements) {
   CsvRow(steps_) << report.time << int{static_cast<std::uint8_t>(report.phase)} << report.unit
                  << report.largest_offset << report.candidates << report.links_severed << report.cut_area
                  << report.pieces << report.body.force << report.body.moment << report.blade_work
                  << report.iterations << report.residual;
   for (const FractureEvent& event : report.events) add_event(events_, event);
+  CsvRow row(front_);
+  row << report.time;
+  for (const Distances* distances : {&front.crease, &front.cut_end, &front.covered})
+    row << distances->largest << distances->count;
+  row << front.buried;
   CsvRow probes(probes_);
   probes << report.time;
   for (const Vec3& displacement : probe_displacements) probes << displacement;
@@ -46,6 +55,7 @@ void RunTables::add(const StepReport& report, const std::vector<Vec3>& probe_dis
 void RunTables::close() {
   close_checked(steps_, "steps.csv");
   close_checked(events_, "events.csv");
+  close_checked(front_, "front.csv");
   close_checked(probes_, "probes.csv");
 }
 

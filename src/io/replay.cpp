@@ -159,8 +159,9 @@ RunFigures run_steps(Simulation& simulation, StepSource& steps, const OutputFold
     const Clock::time_point step_start = Clock::now();
     const StepReport report = simulation.step(*input);
     figures.timing.add(report, milliseconds_since(step_start));
-    figures.statistics.add(report, simulation.front_fidelity());
-    tables.add(report, simulation.probe_displacements());
+    const FrontFidelity front = simulation.front_fidelity();
+    figures.statistics.add(report, front);
+    tables.add(report, front, simulation.probe_displacements());
     surfaces.add(simulation);
     progress.show(figures.statistics.steps * config.dynamics.time_step);
   }

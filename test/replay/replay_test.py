@@ -113,6 +113,17 @@ class Cuts(ReplayTest):
             self.assertGreater(event["peak_force"], 2.0 * min(abs(f) for f in after))
         self.assertGreater(summary["blade_work_j"], summary["fracture_work_j"])
 
+    def test_front_of_every_step_adds_up_to_the_summary(self):
+        summary = self.replay("out", *self.stroke(0.01))
+        rows = self.rows("out", "front.csv")
+        self.assertEqual(len(rows), summary["steps"])
+        for part in ("crease", "cut_end", "covered"):
+            whole = summary["front"][part]
+            self.assertEqual(sum(row[part + "_samples"] for row in rows), whole["samples"])
+            self.assertAlmostEqual(max(row[part + "_max"] for row in rows), whole["max_m"], delta=1e-12)
+        self.assertGreater(summary["front"]["crease"]["samples"], 0)
+        self.assertEqual(sum(row["buried_samples"] for row in rows), summary["front"]["buried_samples"])
+
     @needs_bags
     def test_liver_bunny_bread_and_steak(self):
         cuts = (("liver", "liver_incision"), ("bunny", "bunny_cut"), ("bread", "bread_slices"), ("steak", "steak_cut"))

@@ -9,16 +9,17 @@
 
 namespace cfem_cutting {
 
-/// The tables of a run, written as it goes on: steps.csv, events.csv, probes.csv.
+/// The tables of a run, written as it goes on: steps.csv, events.csv, front.csv, probes.csv.
 class RunTables {
  public:
   RunTables(const OutputFolder& folder, std::size_t probes);
-  void add(const StepReport& report, const std::vector<Vec3>& probe_displacements);
+  void add(const StepReport& report, const FrontFidelity& front,
+           const std::vector<Vec3>& probe_displacements);
   /// @throw FileError
   void close();
 
  private:
-  std::ofstream steps_, events_, probes_;
+  std::ofstream steps_, events_, front_, probes_;
 };
 
 /// timing.csv: milliseconds per step and stage; a stage that a step did without is 0.
