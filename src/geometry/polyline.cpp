@@ -48,6 +48,16 @@ PolylineProjection project(const Polyline& polyline, const Vec3& query) {
   return nearest;
 }
 
+Vec3 point_along(const Polyline& polyline, double along) {
+  for (std::size_t i = 0; i + 1 < polyline.size(); ++i) {
+    const Vec3 way = polyline[i + 1] - polyline[i];
+    const double length = way.norm();
+    if (along < length) return polyline[i] + std::max(along, 0.0) / length * way;
+    along -= length;
+  }
+  return polyline.back();
+}
+
 Polyline refine(const Polyline& polyline, double max_length) {
   assert(max_length > 0.0);
   if (polyline.empty()) return {};

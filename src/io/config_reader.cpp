@@ -1,6 +1,6 @@
 #include "cfem_cutting/io/config_reader.h"
 
-#include "cfem_cutting/geometry/files.h"
+#include "cfem_cutting/io/files.h"
 #include "overrides.h"
 #include "schema.h"
 

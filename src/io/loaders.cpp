@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "cfem_cutting/geometry/errors.h"
-#include "cfem_cutting/geometry/files.h"
 #include "cfem_cutting/io/config_reader.h"
+#include "cfem_cutting/io/files.h"
 
 namespace cfem_cutting {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "cfem_cutting/blade/blade.h"
 #include "cfem_cutting/geometry/errors.h"
-#include "cfem_cutting/geometry/files.h"
+#include "cfem_cutting/io/files.h"
 #include "cfem_cutting/io/number.h"
 
 namespace cfem_cutting {

@@ -209,9 +209,9 @@ void run_replay(const ReplayOptions& options, const BagReader& read_bag) {
   const bool has_blade = !config.blade.edge.empty() || !config.blade.edge_links.empty();
   const Blade blade = has_tool || has_blade ? load_blade(config.blade, resolve) : idle_blade();
   const Recording recording = read_recording(options, read_bag, config.tissue);
-  const StopSignals stop_signals;
   OutputFolder folder(options.out);
   Simulation simulation(config, *load_shape(config.tissue, resolve), blade);
+  const StopSignals stop_signals;
   std::vector<std::string> warnings;
   warn(recording.warnings, warnings);
   warn(simulation.warnings(), warnings);

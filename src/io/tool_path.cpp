@@ -4,7 +4,7 @@
 
 #include "cfem_cutting/blade/blade.h"
 #include "cfem_cutting/geometry/errors.h"
-#include "cfem_cutting/geometry/files.h"
+#include "cfem_cutting/io/files.h"
 
 namespace cfem_cutting {
 namespace {

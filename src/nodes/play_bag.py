@@ -42,9 +42,10 @@ def fail(path, complaint):
 
 
 def check(path, topics, pose_topic):
+    """The topic that holds the tool's poses."""
     pose_input = str(rospy.get_param("cutting_node/node/pose_input", "pose"))
     if pose_input not in INPUTS:
-        return  # the node refuses it
+        return pose_topic  # the node refuses it
     topic, types = INPUTS[pose_input]
     topic = rospy.resolve_name(topic or pose_topic)
     if topic not in topics:
@@ -52,14 +53,16 @@ def check(path, topics, pose_topic):
         fail(path, f"no topic {topic}: must hold the tool's poses (node.pose_input: {pose_input}); it has {held}")
     if topics[topic][1] not in types:
         fail(path, f"topic {topic} is {topics[topic][1]}: must be {types[0]} (node.pose_input: {pose_input})")
+    return topic
 
 
 def main(path, pose_topic, *options):
     path = os.path.abspath(path)
     topics = read_topics(path)
-    check(path, topics, pose_topic)
+    inputs = {check(path, topics, pose_topic), "/tf", "/tf_static"}
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    played = [topics[topic][0] for topic in (rospy.resolve_name(pose_topic), "/tf", "/tf_static") if topic in topics]
+    played = sorted(topics[topic][0] for topic in inputs if topic in topics)
+    # rosrun and not the program rosbag, which does not hand on the node's name.
     status = subprocess.call(["rosrun", "rosbag", "play", path, *options, "--topics", *played])
     if status != 0:
         fail(path, f"rosbag play failed with exit code {status}")
@@ -67,4 +70,6 @@ def main(path, pose_topic, *options):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
     main(*sys.argv[1:])

@@ -14,7 +14,7 @@
 #include <set>
 
 #include "cfem_cutting/geometry/errors.h"
-#include "cfem_cutting/geometry/files.h"
+#include "cfem_cutting/io/files.h"
 #include "cfem_cutting/ros/conversions.h"
 #include "cfem_cutting/ros/pose_queue.h"
 

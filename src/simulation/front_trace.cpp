@@ -11,8 +11,8 @@ namespace {
 // Along the edge, of contact points' spacing: where a dent ends; and how near a point is to the one before to
 // be left out, as tissue that slides brings them together and past each other.
 constexpr double kDentReach = 4.0, kCrowded = 0.25;
-constexpr double kStretch =
-    1.5;  // of tissue along the edge, at most: how much of it lies on the rest of the edge
+// At most, of tissue along the edge: its length at rest over that of the edge beside it.
+constexpr double kStretch = 1.5;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// The part of a segment from a point in tissue on that is in tissue, tested in steps of 1/16.

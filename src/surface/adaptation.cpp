@@ -29,6 +29,7 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set
     for (SheetGroup& group : cell.groups) {
       group.adapted.reset();
       group.drawn_back.reset();
+      group.times_drawn_back = 0;
       group.chain = -1;
       group.edge_end = EdgeEnd::kNone;
     }

@@ -46,6 +46,7 @@ struct SheetGroup {
   bool settled = false;            ///< it was put on what the blade has cut
   std::optional<Vec3> adapted;     ///< m, the virtual intersection point on the present trace
   std::optional<Vec3> drawn_back;  ///< m, where it is instead as long as a triangle would be turned
+  int times_drawn_back = 0;
   const Vec3& X() const { return drawn_back ? *drawn_back : adapted ? *adapted : frozen ? *frozen : minimum; }
 };
 

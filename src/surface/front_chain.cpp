@@ -66,12 +66,11 @@ class ChainFinder {
   /// Of a cell's groups those where a cut ends, else those with skin, but for those on other chains.
   std::vector<int> eligible(const DualCell& cell) const {
     std::vector<int> groups;
-    for (const bool cut_end : {true, false}) {
-      for (std::size_t g = 0; g < cell.groups.size(); ++g) {
-        const SheetGroup& group = cell.groups[g];
-        if (group.chain < 0 && (cut_end ? group.cut_end : group.skin)) groups.push_back(static_cast<int>(g));
-      }
-      if (!groups.empty()) break;
+    const bool cut_ends = std::any_of(cell.groups.begin(), cell.groups.end(),
+                                      [](const SheetGroup& group) { return group.cut_end; });
+    for (std::size_t g = 0; g < cell.groups.size(); ++g) {
+      const SheetGroup& group = cell.groups[g];
+      if (group.chain < 0 && (cut_ends ? group.cut_end : group.skin)) groups.push_back(static_cast<int>(g));
     }
     return groups;
   }
@@ -230,11 +229,13 @@ class ChainFinder {
 
   std::vector<ChainLink> chain_to(int end) const {
     std::vector<ChainLink> chain;
+    std::vector<double> along;
     if (end < 0) return chain;
     int first = end;
     for (bool begins = alone_;; first = nodes_[first].before, begins = nodes_[first].begins()) {
       const Node& node = nodes_[first];
       chain.push_back({node.cell, node.group, node.X, EdgeEnd::kNone, !begins && node.continues});
+      along.push_back(node.along);
       if (begins) break;
     }
     const double head = nodes_[first].along, tail = from_.back() - nodes_[end].along;
@@ -244,19 +245,31 @@ class ChainFinder {
     if (!alone || tail > head)
       put_at_end(chain.back(), trace_.points.front(), trace_.heel ? EdgeEnd::kHeel : EdgeEnd::kNone);
     std::reverse(chain.begin(), chain.end());
-    close_gaps(chain);
+    std::reverse(along.begin(), along.end());
+    close_gaps(along, chain);
     return chain;
   }
 
-  /// Neighbours that nothing joins meet halfway, but the trace's ends stay.
-  void close_gaps(std::vector<ChainLink>& chain) const {
-    for (std::size_t i = 1; i < chain.size(); ++i) {
-      Vec3 &before = chain[i - 1].X, &after = chain[i].X;
-      if (chain[i].continues || (after - before).norm() > kWidestGap * h_) continue;
-      const bool first = i == 1, last = i + 1 == chain.size();
-      if (first && last) continue;
-      before = after = first ? before : last ? after : project(trace_.points, 0.5 * (before + after)).point;
+  /// Neighbours that nothing joins meet halfway, where each goes on the other way; the trace's ends stay.
+  /// @param along m, of the links on the trace
+  void close_gaps(const std::vector<double>& along, std::vector<ChainLink>& chain) const {
+    const std::size_t count = chain.size();
+    for (std::size_t i = 1; i < count; ++i) {
+      const bool first = i == 1, last = i + 1 == count;
+      const bool alone =
+          (first && last) || (!first && !chain[i - 1].continues) || (!last && !chain[i + 1].continues);
+      if (alone || !is_gap(chain[i - 1], chain[i])) continue;
+      const Vec3 middle = point_along(trace_.points, 0.5 * (along[i - 1] + along[i]));
+      const Vec3 X = first ? chain[i - 1].X : last ? chain[i].X : middle;
+      chain[i - 1].X = chain[i].X = X;
     }
+  }
+
+  /// A short one, and none that a triangle beside it would be turned to close.
+  bool is_gap(const ChainLink& before, const ChainLink& after) const {
+    const bool avoided =
+        avoided_.count(diagonal_between({before.cell, before.group}, {after.cell, after.group})) > 0;
+    return !after.continues && !avoided && (after.X - before.X).norm() <= kWidestGap * h_;
   }
 
   static std::array<int, 3> key(const Vec3i& index) { return {index.x(), index.y(), index.z()}; }

@@ -59,16 +59,6 @@ void walk_segment(const Lattice& lattice, const Vec3& a, const Vec3& b, std::vec
   }
 }
 
-/// The point at a distance along a polyline.
-Vec3 point_along(const Polyline& points, double along) {
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const double length = (points[i + 1] - points[i]).norm();
-    if (along <= length) return points[i] + along / length * (points[i + 1] - points[i]);
-    along -= length;
-  }
-  return points.back();
-}
-
 /// The nearest point of a piece, off the ends at which the polyline goes on.
 Vec3 project_between_ends(const FrontPiece& piece, const Vec3& query) {
   if (piece.points.size() == 1) return piece.points[0];

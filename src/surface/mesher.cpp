@@ -98,7 +98,8 @@ int Mesher::midpoint(const Contour& contour, const Polygon& polygon, int i) {
   const int vertex =
       add_fixed_vertex(0.5 * (crossing(side) + crossing(end)), cell.voxel[side / 3], cell.index);
   midpoint_of_arc_.emplace(key, vertex);
-  midpoints_.push_back({vertex, polygon.cell[i], polygon.group(contour, i), normal_axis});
+  midpoints_.push_back({vertex, polygon.cell[i], polygon.group(contour, i), normal_axis,
+                        cell.has_side(across(side)) || cell.has_side(across(end))});
   return vertex;
 }
 

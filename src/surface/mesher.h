@@ -27,6 +27,7 @@ class Mesher {
     int vertex;
     int cell, group;  ///< of the sheet on one side
     int normal_axis;  ///< of the face
+    bool at_cut;      ///< an end of the arc is at a severed link
   };
   const std::vector<Midpoint>& midpoints() const { return midpoints_; }
   void move(int midpoint, const Vec3& X) { surface_.vertices[midpoint].X = X; }

@@ -31,6 +31,14 @@ Box room_in_face(const Contour& contour, const Mesher::Midpoint& midpoint, const
   return room;
 }
 
+/// Where a group's vertex would be in its cell: if it is not on the trace, on the cut as far as that goes.
+Vec3 into_cell(const Contour& contour, int cell, const SheetGroup& group, const NearestOnCut& nearest) {
+  const Box room = room_in_cell(contour.volume().lattice(), contour.cells()[cell].index);
+  const auto inside = [&](const Vec3& X) { return into(room, X); };
+  if (group.adapted || !nearest) return inside(group.X());
+  return inside(to_cut_and(contour, group.X(), nearest, inside).value_or(group.X()));
+}
+
 }  // namespace
 
 void settle_on_cut(Contour& contour, const NearestOnCut& nearest) {
@@ -38,7 +46,7 @@ void settle_on_cut(Contour& contour, const NearestOnCut& nearest) {
     if (cell.groups.size() != 1 || !cell.groups[0].severed) continue;
     SheetGroup& group = cell.groups[0];
     const bool held = group.adapted && group.cut_end;
-    if (group.settled || (held && !group.skin)) continue;
+    if (held ? !group.skin : group.settled) continue;
     const auto onto_its_skin = [&](const Vec3& X) { return onto_skin(X, contour.volume(), cell, group); };
     const Vec3 start = held ? group.X() : group.frozen.value_or(group.minimum);
     const std::optional<Vec3> X = to_cut_and(contour, start, nearest, onto_its_skin);
@@ -51,7 +59,7 @@ void settle_midpoints(const Contour& contour, Mesher& mesher, const NearestOnCut
   for (const Mesher::Midpoint& midpoint : mesher.midpoints()) {
     const DualCell& cell = contour.cells()[midpoint.cell];
     const SheetGroup& group = cell.groups[midpoint.group];
-    if (!group.severed) continue;
+    if (!midpoint.at_cut || cell.groups.size() != 1) continue;
     const Vec3 start = mesher.surface().vertices[midpoint.vertex].X;
     const Box room = room_in_face(contour, midpoint, start);
     const auto onto_its_skin = [&](const Vec3& X) {
@@ -63,20 +71,17 @@ void settle_midpoints(const Contour& contour, Mesher& mesher, const NearestOnCut
 }
 
 bool draw_back(Contour& contour, int cell, int group, const NearestOnCut& nearest) {
-  const Box room = room_in_cell(contour.volume().lattice(), contour.cells()[cell].index);
   SheetGroup& of_sheets = contour.cells()[cell].groups[group];
-  const auto into_cell = [&](const Vec3& X) { return into(room, X); };
-  const Vec3 from = of_sheets.X();
-  if (of_sheets.adapted) {
-    of_sheets.drawn_back = into_cell(*of_sheets.adapted);
-  } else if (room.contains(from) && of_sheets.drawn_back) {
-    of_sheets.drawn_back = of_sheets.minimum;
+  const int most_times = of_sheets.adapted ? 1 : 3;
+  if (of_sheets.times_drawn_back == most_times) return false;
+  const int times = ++of_sheets.times_drawn_back;
+  const Vec3 in_cell = into_cell(contour, cell, of_sheets, nearest);
+  if (of_sheets.adapted || times == 2) {
+    of_sheets.drawn_back = in_cell;
   } else {
-    const Vec3 in_cell =
-        into_cell(nearest ? to_cut_and(contour, from, nearest, into_cell).value_or(from) : from);
-    of_sheets.drawn_back = of_sheets.drawn_back ? in_cell : Vec3(0.5 * (from + in_cell));
+    of_sheets.drawn_back = times == 1 ? Vec3(0.5 * (of_sheets.X() + in_cell)) : of_sheets.minimum;
   }
-  return of_sheets.X() != from;
+  return true;
 }
 
 }  // namespace cfem_cutting

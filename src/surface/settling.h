@@ -10,14 +10,14 @@ using NearestOnCut = SurfaceExtractor::NearestOnCut;
 /// as they can be. Cells with other cuts are left alone, as vertices might pass each other.
 void settle_on_cut(Contour& contour, const NearestOnCut& nearest);
 
-/// Puts the vertices halfway between severed links in cells' faces on the cut, and there on the skin, as far
-/// as their faces allow.
+/// Puts the midpoints of arcs from severed links on the cut, and there on the skin, as far as their faces
+/// allow. Cells with other cuts are left alone.
 void settle_midpoints(const Contour& contour, Mesher& mesher, const NearestOnCut& nearest);
 
-/// Draws a virtual intersection point back into its cell: one that is not on the trace stays on the cut as
-/// far as the cell allows, and goes to the error function's minimum the second time. For the present trace
-/// only.
-/// @return whether it moved
+/// Draws a virtual intersection point back, for the present trace only: one on the trace into its cell;
+/// others half of the way there the first time, into the cell the second time, both on the cut as far as that
+/// goes, and to the error function's minimum the third time.
+/// @return false: it is back already
 bool draw_back(Contour& contour, int cell, int group, const NearestOnCut& nearest);
 
 }  // namespace cfem_cutting

@@ -22,7 +22,7 @@ namespace {
 /// Vertices at the ends of a trace, on detours and on the cut leave their cells; where that turns a triangle,
 /// they go back, those on the trace last.
 void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnCut& on_cut) {
-  constexpr int kTries = 10;
+  constexpr int kTries = 20;
   for (int i = 0; i < kTries; ++i) {
     bool moved = false;
     const std::vector<Anchor> turned = mesher.turned();

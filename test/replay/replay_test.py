@@ -149,6 +149,18 @@ class Cuts(ReplayTest):
             self.assertAlmostEqual(summary["surface"]["volume_m3"], 4.992e-4, delta=1e-8, msg=name)
             self.assertEqual(summary["surface"]["flipped"] + summary["surface"]["degenerate"], 0, name)
 
+    def test_cut_of_an_edge_whose_heel_leaves_ends_where_the_heel_was(self):
+        # Without an end to it, the trace ran on to the skin, a voxel beyond what was swept.
+        write_path(self.path("poses.csv"), [(0.031588, 0.011193, 0.050349), (0.031588, 0.011193, 0.030349),
+                                            (0.019588, -0.000807, 0.026349)])
+        settings = ["blade.edge=[[0,0,0],[0.003941,0.021653,-0.01731]]", "blade.back=[0,0,1]", "tissue.voxel_size=0.002",
+                    "tissue.box_size=[0.064,0.048,0.032]", "tissue.fixed=[{box: {min: [-1,-1,-1], max: [1,1,0.001]}}]"]
+        summary = self.replay("out", "--poses", self.path("poses.csv"), *[o for s in settings for o in ("--set", s)])
+        for part in ("crease", "cut_end"):
+            self.assertGreater(summary["front"][part]["samples"], 300)
+            self.assertLess(summary["front"][part]["max_m"], 0.01 * 0.002)
+        self.assertLess(summary["cut_faces"]["max_m"], 0.2 * 0.002)
+
     def test_crease_and_cut_end_are_on_the_edge_on_liver_and_bunny(self):
         # Straight edges in the tissue's frame: across the liver's front, across the bunny, and with the tip in its back.
         across = ["blade.edge=[[0,0,0],[0,0.0199,0.199]]", "blade.back=[0,-1,0]"]
@@ -315,6 +327,14 @@ class Signals(ReplayTest):
             self.assertFalse(os.path.exists(self.path(out)))
             self.replay(out, "--duration", "0.1")
             self.assertFalse(os.path.exists(self.path(out + ".partial")))
+
+    def test_ignored_signal_stays_ignored(self):
+        run = subprocess.Popen([REPLAY, "--config", BOX, "--out", self.path("out"), "--duration", "2"],
+                               stderr=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+        self.wait_for_text(os.path.join(self.path("out.partial"), "steps.csv"))
+        run.send_signal(signal.SIGINT)
+        run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 0)
 
     def wait_for_text(self, path):
         end = time.monotonic() + 60

@@ -22,11 +22,16 @@ class LaunchFilesTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
 
-    def launch(self, file, *arguments):
-        launch = subprocess.Popen(["roslaunch", "cfem_cutting", file, "rviz:=false", "config:=" + BOX, *arguments],
+    def launch(self, file, *arguments, config=BOX):
+        launch = subprocess.Popen(["roslaunch", "cfem_cutting", file, "rviz:=false", "config:=" + config, *arguments],
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
-        self.addCleanup(launch.kill)
+        self.addCleanup(self.end, launch)
         return launch
+
+    def end(self, launch):
+        """With its nodes."""
+        launch.send_signal(signal.SIGINT)
+        launch.communicate(timeout=PATIENCE)
 
     def check_end(self, words, file, *arguments):
         """The launch ends, and one line says all the words."""
@@ -77,13 +82,25 @@ class LaunchFilesTest(unittest.TestCase):
             subscriber = rospy.Subscriber("step_report", StepReport, steps.append)
             launch = self.launch(*arguments)
             wait_until(lambda: len(steps) > 50, "it steps")
-            while steps:  # until they stop
-                del steps[:]
-                rospy.sleep(2.0)
+            wait_until(lambda: self.have_stopped(steps), "the steps stop")
             self.assertIsNone(launch.poll(), arguments)
-            launch.send_signal(signal.SIGINT)
-            launch.communicate(timeout=PATIENCE)
+            self.end(launch)
             subscriber.unregister()
+
+    def have_stopped(self, steps):
+        before = len(steps)
+        rospy.sleep(2.0)
+        return len(steps) == before
+
+    def test_tool_frame_is_followed_beside_a_topic_of_poses_that_nobody_needs(self):
+        with open(BOX) as file:
+            config = self.write("tf.yaml", file.read().replace("node:\n", "node:\n  pose_input: tf\n  tool_frame: scalpel\n"))
+        steps = []
+        subscriber = rospy.Subscriber("step_report", StepReport, steps.append)
+        launch = self.launch("playback.launch", "bag:=" + SLICE, "rate:=10", config=config)
+        wait_until(lambda: len(steps) > 50, "it steps")
+        self.end(launch)
+        subscriber.unregister()
 
 
 if __name__ == "__main__":

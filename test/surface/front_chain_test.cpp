@@ -51,6 +51,31 @@ TEST(FrontChain, comes_by_a_vertex_once) {
   EXPECT_EQ(vertices.size(), chain.size());
 }
 
+/// A blade in a plane of voxels' centres has cut the links on one side of it, and farther on those on the
+/// other.
+TEST(FrontChain, closes_the_gap_between_rows_that_nothing_joins) {
+  VoxelVolume volume = box_volume({8, 8, 6});
+  const auto deep = [](const Vec3& X) { return X.z() > 2.8; };
+  test::sever(volume, test::Plane{{0, 4.2, 0}, Vec3::UnitY()},
+              [&](const Vec3& X) { return deep(X) && X.x() < 4.0; });
+  test::sever(volume, test::Plane{{0, 4.8, 0}, Vec3::UnitY()},
+              [&](const Vec3& X) { return deep(X) && X.x() > 4.0; });
+  Contour contour(volume);
+  contour.update();
+  const Vec3 from(0.0, 4.5, 2.8), to(8.0, 4.5, 2.8);
+  const std::vector<ChainLink> chain = find_chain(contour, Trace(refine({from, to}, 0.5)));
+  ASSERT_GE(chain.size(), 6u);
+  int gaps = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    if (chain[i].continues) continue;
+    ++gaps;
+    EXPECT_EQ(chain[i].X, chain[i - 1].X);
+  }
+  EXPECT_EQ(gaps, 1);
+  EXPECT_EQ(chain.front().X, from);
+  EXPECT_EQ(chain.back().X, to);
+}
+
 TEST(FrontChain, leaves_out_vertices_of_longer_traces) {
   const VoxelVolume volume = box_volume({8, 8, 4});
   const Polyline across = refine({Vec3(1.6, 4.1, 4.0), Vec3(6.4, 4.3, 4.0)}, 0.25);

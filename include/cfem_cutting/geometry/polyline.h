@@ -16,6 +16,9 @@ struct PolylineProjection {
 /// @pre polyline has at least two points, no two consecutive ones equal
 PolylineProjection project(const Polyline& polyline, const Vec3& query);
 
+/// The point at a distance along a polyline of one or more points, m; its last point beyond its length.
+Vec3 point_along(const Polyline& polyline, double along);
+
 /// Splits each segment evenly so that none is longer than max_length (m); keeps all given points.
 Polyline refine(const Polyline& polyline, double max_length);
 

@@ -61,7 +61,8 @@ class SurfaceExtractor {
   using NearestOnCut = std::function<std::optional<Vec3>(const Vec3&)>;
 
   /// @param volume must outlive the extractor
-  /// @param on_cut where vertices at cuts go at each fracture; empty: anywhere in their cells
+  /// @param on_cut where vertices at cuts go when links are severed or `freeze` was called; empty: anywhere
+  /// in their cells
   explicit SurfaceExtractor(const VoxelVolume& volume, NearestOnCut on_cut = {});
   ~SurfaceExtractor();
 

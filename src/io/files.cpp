@@ -1,4 +1,4 @@
-#include "cfem_cutting/geometry/files.h"
+#include "cfem_cutting/io/files.h"
 
 #include <cerrno>
 #include <filesystem>
