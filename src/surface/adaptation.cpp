@@ -13,12 +13,12 @@ double length_of(const Polyline& points) {
 
 /// Two traces may pass the same vertices: the longer one takes them.
 std::vector<const Trace*> longest_first(const FrontTrace& trace) {
-  std::vector<std::pair<double, const Trace*>> parts;
-  for (const Trace& part : trace) parts.emplace_back(length_of(part.points), &part);
-  std::stable_sort(parts.begin(), parts.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<const Trace*> sorted;
-  for (const auto& part : parts) sorted.push_back(part.second);
+  sorted.reserve(trace.size());
+  for (const Trace& part : trace) sorted.push_back(&part);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Trace* a, const Trace* b) {
+    return length_of(a->points) > length_of(b->points);
+  });
   return sorted;
 }
 
