@@ -118,7 +118,7 @@ bool Corotation::respond_singly(int element, const NodeField& x, double* force, 
   const Mat3& R = polar.R;
   const Positions y = R.transpose() * local;
   const Positions u = y - rest_positions(block_size_);
-  Positions f = rest_frame_forces(*elements_->set.stiffness[element], u);
+  Positions f = rest_frame_forces(elements_->set.stiffness[element]->whole, u);
   energy = 0.5 * u.cwiseProduct(f).sum();
   if (turns) {
     Vec3 torque = Vec3::Zero();

@@ -81,14 +81,15 @@ static void respond_lanes(const CorotationBatch& batch, int lane) {
       y[3 * n + i] = R[i] * x[3 * n] + R[3 + i] * x[3 * n + 1] + R[6 + i] * x[3 * n + 2];
       u[3 * n + i] = y[3 * n + i] - (n >> i & 1) * batch.block_size[i];
     }
-  if (batch.form == MatrixForm::kMirrored) {
+  if (is_of_modes(batch.form)) {
     Vector modes[24];
     for (int i = 0; i < 24; ++i) modes[i] = u[i];
     transform(modes);
-    multiply_blocks(batch.stiffness, modes, f);
+    multiply_modes(batch.form, batch.stiffness, lane, modes, f);
+    for (int i = 0; i < 3; ++i) f[i] = Vector{};
     transform(f);
   } else {
-    multiply_unmirrored(batch.form, batch.stiffness, lane, u, f);
+    multiply_nodes(batch.form, batch.stiffness, lane, u, f);
   }
   Vector energy = {};
   for (int i = 0; i < 24; ++i) energy += 0.5 * u[i] * f[i];

@@ -19,7 +19,7 @@ void DirectSolver::factorise(const ElementProduct& product, float stiffness_fact
     for (int n = 0; n < 8; ++n)
       for (int m = 0; m < 8; ++m)
         add(elements.nodes[e][n], elements.nodes[e][m],
-            stiffness_factor * R * elements.stiffness[e]->block<3, 3>(3 * n, 3 * m) * R.transpose());
+            stiffness_factor * R * elements.stiffness[e]->whole.block<3, 3>(3 * n, 3 * m) * R.transpose());
   }
   for (const ConstraintRow& row : constraints) {
     const Vec3 d = row.direction.cast<double>();

@@ -150,7 +150,7 @@ void ElasticModel::respond(const NodeField& x, ThreadPool& pool, ElasticResponse
 }
 
 const ElementMatrix& ElasticModel::stiffness(int element) const {
-  return matrices_->of_element[element]->stiffness;
+  return matrices_->of_element[element]->stiffness.whole;
 }
 
 const ElementsPointer& ElasticModel::elements() const { return matrices_->corotation.elements(); }

@@ -9,13 +9,17 @@ constexpr int kLanes = 16;
 
 /// How a batch has its matrices.
 enum class MatrixForm {
-  kMirrored,  ///< one, symmetric under reflections of the block: see MirroredMatrix, kMirroredMatrix entries
-  kWhole,     ///< one, column by column: kWholeMatrix entries
-  kTriangles  ///< one a lane, its lower triangle column by column: (kTriangle × 16) entries
+  kMirrored,   ///< one, symmetric under reflections of the block: see MirroredMatrix, kMirroredMatrix entries
+  kWhole,      ///< one, column by column: kWholeMatrix entries
+  kTriangles,  ///< one a lane, its lower triangle column by column: (kTriangle × 16) entries
+  kDeformations  ///< one a lane, see DeformationMatrix: (3 × 16) ratios, (kDeformationTriangle × 16) entries
+                 ///< of its lower triangle, (8 × 6 × 16) of each node's block of K
 };
 constexpr int kMirroredMatrix = 8 * 9;
 constexpr int kWholeMatrix = 24 * 24;
 constexpr int kTriangle = 24 * 25 / 2;
+constexpr int kDeformationTriangle = 18 * 19 / 2;
+constexpr int kDeformationMatrix = 3 + kDeformationTriangle + 8 * 6;
 
 /// Where lane l stands among the quads of a node in ElementBatch::y.
 constexpr int place_of_lane(int l) { return 4 * (l % 4) + l / 4; }

@@ -87,12 +87,13 @@ static inline void unpack_rotation(const KERNEL_SCALAR* parameters, Vector* R) {
   }
 }
 
-/// y = R K Rᵀ x; x is used up. Transformed, the first node is a translation, which has no forces.
-static inline void multiply_mirrored(const KERNEL_SCALAR* K, const Vector* R, Vector* x, Vector* y) {
+/// y = R K Rᵀ x by a form of transformed nodes; x is used up.
+static inline void multiply_transformed(const ElementBatch<KERNEL_SCALAR>& batch, int lane, const Vector* R,
+                                        Vector* x, Vector* y) {
   Vector u[24] = {};
   transform(x);
   rotate(R, true, 1, x, u);
-  multiply_blocks(K, u, x);
+  multiply_modes(batch.form, batch.stiffness, lane, u, x);
   rotate(R, false, 1, x, y);
   for (int i = 0; i < 3; ++i) y[i] = u[i];
   transform(y);
@@ -104,11 +105,11 @@ static void multiply(const ElementBatch<KERNEL_SCALAR>& batch) {
 #pragma GCC unroll 8
     for (int n = 0; n < 8; ++n) gather(batch.x, batch.nodes + kLanes * n + lane, x + 3 * n);
     unpack_rotation(batch.rotation + lane, R);
-    if (batch.form == MatrixForm::kMirrored) {
-      multiply_mirrored(batch.stiffness, R, x, u);
+    if (is_of_modes(batch.form)) {
+      multiply_transformed(batch, lane, R, x, u);
     } else {
       rotate(R, true, 0, x, u);
-      multiply_unmirrored(batch.form, batch.stiffness, lane, u, x);
+      multiply_nodes(batch.form, batch.stiffness, lane, u, x);
       rotate(R, false, 0, x, u);
     }
 #pragma GCC unroll 8

@@ -141,7 +141,7 @@ void ElementAssembler::prepare_stabilisation() {
   for (std::size_t m = 0; m < materials_.size(); ++m) {
     std::vector<BlockWeights> weights(materials_.size(), BlockWeights::Zero());
     weights[m] = voxel_weights(Vec3i::Zero(), 0, full, block_volume_);
-    stabilisation.push_back(kPart * hourglass * assemble(weights, weights).stiffness * hourglass);
+    stabilisation.push_back(kPart * hourglass * assemble(weights, weights).stiffness.whole * hourglass);
   }
   stabilisation_ = std::move(stabilisation);
 }
@@ -184,13 +184,13 @@ ElementData ElementAssembler::assemble(const std::vector<BlockWeights>& weights,
                                        const std::vector<BlockWeights>& mass_weights) const {
   const Sums sums = integrate(weights);
   ElementData data;
-  const ElementMatrix K = kind_ == ElementKind::kTrilinear
-                              ? ElementMatrix(sums.stiffness.topLeftCorner<24, 24>())
-                              : condense(sums);
-  data.stiffness = 0.5 * (K + K.transpose());
+  ElementMatrix K = kind_ == ElementKind::kTrilinear ? ElementMatrix(sums.stiffness.topLeftCorner<24, 24>())
+                                                     : condense(sums);
+  K = (0.5 * (K + K.transpose())).eval();
   if (sums.volume < (1.0 - 1e-9) * block_volume_)
     for (std::size_t m = 0; m < weights.size(); ++m)
-      data.stiffness += weights[m].sum() / block_volume_ * stabilisation_[m];
+      K += weights[m].sum() / block_volume_ * stabilisation_[m];
+  data.stiffness = RestMatrix(K);
   data.mean_gradient.setZero();
   data.mass.setZero();
   for (std::size_t m = 0; m < weights.size(); ++m) {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "cfem_cutting/elasticity/elastic_model.h"
+#include "rest_matrix.h"
 
 namespace cfem_cutting {
 
@@ -12,7 +12,7 @@ using MeanGradient = Eigen::Matrix<double, 3, 8>;
 
 /// What an element needs at rest.
 struct ElementData {
-  ElementMatrix stiffness;           ///< N/m
+  RestMatrix stiffness;
   MeanGradient mean_gradient;        ///< 1/m, of the shape functions over the filled volume
   Eigen::Matrix<double, 8, 1> mass;  ///< kg, row sums
 };

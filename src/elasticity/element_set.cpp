@@ -6,7 +6,7 @@ double ElementSet::trace() const {
   double sum = 0.0, last = 0.0;
   for (std::size_t e = 0; e < stiffness.size(); ++e) {
     if (e == 0 || stiffness[e] != stiffness[e - 1])
-      last = stiffness[e]->trace();  // neighbours mostly share one
+      last = stiffness[e]->whole.trace();  // neighbours mostly share one
     sum += last;
   }
   return sum;

@@ -1,15 +1,13 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <vector>
 
-#include "cfem_cutting/elasticity/elastic_model.h"
+#include "rest_matrix.h"
 
 namespace cfem_cutting {
 
 using ElementNodes = std::array<int, 8>;
-using MatrixPointer = std::shared_ptr<const ElementMatrix>;
 
 /// Hexahedra on a block lattice, along Morton's curve, each with its nodes and its stiffness: a level of the
 /// multigrid hierarchy.

@@ -12,7 +12,7 @@ constexpr int kFewestShared = kLanes / 2;  // elements that make a batch with on
 /// Elements by matrix, in the order of first occurrence.
 std::vector<std::vector<int>> group_by_matrix(const ElementSet& elements, int begin, int end) {
   std::vector<std::vector<int>> groups;
-  std::unordered_map<const ElementMatrix*, std::size_t> group_of_matrix;
+  std::unordered_map<const RestMatrix*, std::size_t> group_of_matrix;
   for (int e = begin; e < end; ++e) {
     const auto [it, added] = group_of_matrix.try_emplace(elements.stiffness[e].get(), groups.size());
     if (added) groups.emplace_back();
@@ -42,15 +42,17 @@ void ElementTiles::add_batches(const std::vector<int>& elements, bool shared) {
 
 void ElementTiles::add_tile(const ElementSet& elements, int begin, int end) {
   const int first = size();
-  std::vector<int> others;
+  std::vector<int> others, held;  // batches have matrices of one form
   for (const std::vector<int>& group : group_by_matrix(elements, begin, end)) {
     if (static_cast<int>(group.size()) >= kFewestShared) {
       add_batches(group, true);
     } else {
-      others.insert(others.end(), group.begin(), group.end());
+      std::vector<int>& own = elements.stiffness[group.front()]->deformations ? others : held;
+      own.insert(own.end(), group.begin(), group.end());
     }
   }
   add_batches(others, false);
+  add_batches(held, false);
   tiles_.push_back({first, size()});
   nodes.resize(batches.size() * 8 * kLanes, 0);
   for (int b = first; b < size(); ++b)

@@ -45,14 +45,16 @@ class ElementTiles {
   template <typename Scalar, typename Work, typename Finish>
   void sum_up(ThreadPool& pool, const Work& work, const Finish& finish) const {
     thread_local std::vector<QuadOf<Scalar>> border;  // the caller's, for all threads
-    border.resize(border_sums_.nodes.size());
+    if (border.size() < border_sums_.nodes.size()) border.resize(border_sums_.nodes.size());
     QuadOf<Scalar>* const on_border = border.data();
     pool.for_range(
         static_cast<int>(tiles_.size()), std::max(1, kFewest / tile_size_), [&](int begin, int end) {
           thread_local std::vector<Line<Scalar>> lines;
           for (int t = begin; t < end; ++t) {
             const Tile& tile = tiles_[t];
-            lines.resize(static_cast<std::size_t>(tile.end_batch - tile.first_batch) * kEntries / kLanes);
+            const std::size_t needed =
+                static_cast<std::size_t>(tile.end_batch - tile.first_batch) * kEntries / kLanes;
+            if (lines.size() < needed) lines.resize(needed);
             Scalar* const out = lines.data()->data();
             for (int b = tile.first_batch; b < tile.end_batch; ++b)
               work(b, out + static_cast<std::size_t>(b - tile.first_batch) * kEntries);

@@ -32,7 +32,7 @@ ElementMatrix GalerkinMatrices::sum(const Parts& parts) {
     for (int n = 0; n < 8; ++n)
       for (int m = 0; m < 8; ++m)
         interpolation.block<3, 3>(3 * n, 3 * m).diagonal().setConstant(weights(n, m));
-    sum.noalias() += interpolation.transpose() * (*part.stiffness * interpolation);
+    sum.noalias() += interpolation.transpose() * (part.stiffness->whole * interpolation);
   }
   return sum;
 }
@@ -55,7 +55,7 @@ std::vector<MatrixPointer> GalerkinMatrices::assemble(const ElementSet& fine, co
     if (added) {
       const auto before = known_.find(entry->first);
       entry->second =
-          before != known_.end() ? before->second : std::make_shared<const ElementMatrix>(sum(entry->first));
+          before != known_.end() ? before->second : std::make_shared<const RestMatrix>(sum(entry->first));
     }
     matrices.push_back(entry->second);
   }

@@ -61,50 +61,79 @@ static inline void multiply_whole(const KERNEL_SCALAR* K, const Vector* u, Vecto
   }
 }
 
-/// The lower triangle's entry in row i and column j ≤ i, of one lane after the other.
-static inline const KERNEL_SCALAR* entry(const KERNEL_SCALAR* K, int i, int j) {
-  return K + 16 * (24 * j - j * (j + 1) / 2 + i);
+/// In a lower triangle, column by column, the entry in row i and column j ≤ i, of one lane after the other.
+static inline const KERNEL_SCALAR* entry(const KERNEL_SCALAR* K, int size, int i, int j) {
+  return K + kLanes * (size * j - j * (j + 1) / 2 + i);
 }
 
-/// Each entry below the diagonal serves twice. Some columns at once, whose sums stay in registers.
-static inline void multiply_triangles(const KERNEL_SCALAR* K, const Vector* u, Vector* f) {
-  constexpr int kColumns = 4;
+/// f = K u by a lower triangle: each entry below the diagonal serves twice. Some columns at once, whose sums
+/// stay in registers.
+__attribute__((always_inline)) static inline void multiply_triangle(const KERNEL_SCALAR* K, int size,
+                                                                    const Vector* u, Vector* f) {
+  constexpr int kColumns = 3;
   Vector sum[24] = {};
-#pragma GCC unroll 6
-  for (int j = 0; j < 24; j += kColumns) {
+#pragma GCC unroll 8
+  for (int j = 0; j < size; j += kColumns) {
     Vector own[kColumns];
-#pragma GCC unroll 4
+#pragma GCC unroll 3
     for (int c = 0; c < kColumns; ++c) {
       own[c] = sum[j + c];
-#pragma GCC unroll 4
+#pragma GCC unroll 3
       for (int r = 0; r < kColumns; ++r)
-        own[c] += load(r < c ? entry(K, j + c, j + r) : entry(K, j + r, j + c)) * u[j + r];
+        own[c] += load(r < c ? entry(K, size, j + c, j + r) : entry(K, size, j + r, j + c)) * u[j + r];
     }
-    for (int i = j + kColumns; i < 24; ++i) {
-      Vector even = sum[i], odd = {};
-#pragma GCC unroll 4
+    for (int i = j + kColumns; i < size; ++i) {
+#pragma GCC unroll 3
       for (int c = 0; c < kColumns; ++c) {
-        const Vector k = load(entry(K, i, j + c));
+        const Vector k = load(entry(K, size, i, j + c));
         own[c] += k * u[i];
-        if (c & 1) {
-          odd += k * u[j + c];
-        } else {
-          even += k * u[j + c];
-        }
+        sum[i] += k * u[j + c];
       }
-      sum[i] = even + odd;
     }
-#pragma GCC unroll 4
+#pragma GCC unroll 3
     for (int c = 0; c < kColumns; ++c) f[j + c] = own[c];
   }
 }
 
-/// f = K u by a form that is not mirrored, of lanes from `lane` on of a batch.
-static inline void multiply_unmirrored(MatrixForm form, const KERNEL_SCALAR* K, int lane, const Vector* u,
-                                       Vector* f) {
+/// f = K u by DeformationMatrix, of transformed nodes.
+static inline void multiply_deformations(const KERNEL_SCALAR* K, const Vector* u, Vector* f) {
+  constexpr int kKept[18] = {3, 6, 7, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
+  constexpr int kPairs[3][2] = {{6, 4}, {12, 5}, {13, 8}};  // kept and left out
+  Vector kept[18], forces[18], all[24];
+#pragma GCC unroll 24
+  for (int i = 3; i < 24; ++i) all[i] = u[i];
+#pragma GCC unroll 3
+  for (int p = 0; p < 3; ++p) all[kPairs[p][0]] += load(K + kLanes * p) * u[kPairs[p][1]];
+#pragma GCC unroll 18
+  for (int i = 0; i < 18; ++i) kept[i] = all[kKept[i]];
+  multiply_triangle(K + 3 * kLanes, 18, kept, forces);
+#pragma GCC unroll 18
+  for (int i = 0; i < 18; ++i) f[kKept[i]] = forces[i];
+#pragma GCC unroll 3
+  for (int p = 0; p < 3; ++p) f[kPairs[p][1]] = load(K + kLanes * p) * f[kPairs[p][0]];
+}
+
+/// Whether a form is one of transformed nodes. Of these the first is a translation, which has no forces.
+static inline bool is_of_modes(MatrixForm form) {
+  return form == MatrixForm::kMirrored || form == MatrixForm::kDeformations;
+}
+
+/// f = K u by a form of transformed nodes, without the first, for lanes from `lane` on of a batch.
+static inline void multiply_modes(MatrixForm form, const KERNEL_SCALAR* K, int lane, const Vector* u,
+                                  Vector* f) {
+  if (form == MatrixForm::kMirrored) {
+    multiply_blocks(K, u, f);
+  } else {
+    multiply_deformations(K + lane, u, f);
+  }
+}
+
+/// f = K u by another form.
+static inline void multiply_nodes(MatrixForm form, const KERNEL_SCALAR* K, int lane, const Vector* u,
+                                  Vector* f) {
   if (form == MatrixForm::kWhole) {
     multiply_whole(K, u, f);
   } else {
-    multiply_triangles(K + lane, u, f);
+    multiply_triangle(K + lane, 24, u, f);
   }
 }

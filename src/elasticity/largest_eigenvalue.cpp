@@ -70,7 +70,7 @@ std::vector<LargestEigenvalue::Print> LargestEigenvalue::prints_of(const LevelSy
   std::vector<Print> prints(set.size());
   std::uint64_t matrix = 0;
   for (int e = 0; e < set.size(); ++e) {
-    if (e == 0 || set.stiffness[e] != set.stiffness[e - 1]) matrix = mix_diagonal(*set.stiffness[e]);
+    if (e == 0 || set.stiffness[e] != set.stiffness[e - 1]) matrix = mix_diagonal(set.stiffness[e]->whole);
     std::uint64_t look = matrix;
     for (int node : set.nodes[e])
       look = mix(look, 2 * (at.first[node + 1] - at.first[node]) + (level.held()[node] ? 1 : 0));

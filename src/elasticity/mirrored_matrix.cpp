@@ -1,24 +1,14 @@
 #include "mirrored_matrix.h"
 
-#include <unsupported/Eigen/KroneckerProduct>
-
 namespace cfem_cutting {
 namespace {
 
 constexpr double kRounding = 1e-13;  // of the largest entry
 
-ElementMatrix walsh_transform() {
-  Eigen::Matrix<double, 8, 8> signs;
-  for (int s = 0; s < 8; ++s)
-    for (int n = 0; n < 8; ++n) signs(s, n) = __builtin_parity(s & n) ? -1.0 : 1.0;
-  return Eigen::kroneckerProduct(signs, Mat3::Identity());
-}
-
 }  // namespace
 
 std::optional<MirroredMatrix> mirrored(const ElementMatrix& K) {
-  static const ElementMatrix H = walsh_transform();
-  ElementMatrix left = H * K * H / 64.0;
+  ElementMatrix left = to_modes(K);
   const double rounding = kRounding * left.cwiseAbs().maxCoeff();
   MirroredMatrix blocks;
   for (int p = 0; p < 8; ++p) {

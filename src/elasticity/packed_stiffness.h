@@ -16,7 +16,7 @@ class PackedStiffness {
 
  private:
   void add_whole(const ElementMatrix& K);
-  void add_triangles(const TiledElements& elements, const ElementTiles::Batch& batch);
+  void add_own(const TiledElements& elements, const ElementTiles::Batch& batch);
 
   std::vector<Scalar> entries_;
   std::vector<std::size_t> first_;  // per batch; matrices that several batches share are there once

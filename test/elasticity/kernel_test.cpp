@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 
 #include "corotation_kernel.h"
-#include "element_set.h"
 #include "mirrored_matrix.h"
+#include "packed_stiffness.h"
 #include "rotation.h"
 
 namespace cfem_cutting {
@@ -14,20 +14,43 @@ namespace {
 
 constexpr int kNodes = 50;
 
-/// A stiffness-like matrix; `mirrored`: one that reflections of the block leave alone.
-ElementMatrix make_matrix(bool is_mirrored) {
+constexpr MatrixForm kForms[] = {MatrixForm::kMirrored, MatrixForm::kWhole, MatrixForm::kTriangles,
+                                 MatrixForm::kDeformations};
+
+/// Columns: small rigid motions of the corners of a block.
+Eigen::Matrix<double, 24, 6> rigid_motions(const Vec3& size) {
+  Eigen::Matrix<double, 24, 6> motions;
+  for (int n = 0; n < 8; ++n) {
+    motions.block<3, 3>(3 * n, 0).setIdentity();
+    for (int axis = 0; axis < 3; ++axis)
+      motions.block<3, 1>(3 * n, 3 + axis) =
+          Vec3::Unit(axis).cross(corner_bits(n).cast<double>().cwiseProduct(size));
+  }
+  return motions;
+}
+
+/// K without forces against those motions.
+template <typename Motions>
+ElementMatrix without(const Motions& motions, const ElementMatrix& K) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motions);
+  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(24, motions.cols());
+  const ElementMatrix left = ElementMatrix::Identity() - basis * basis.transpose();
+  return left * K * left;
+}
+
+/// A stiffness-like matrix that a form can stand for.
+ElementMatrix make_matrix(MatrixForm form) {
   ElementMatrix K = ElementMatrix::Random();
   K = (K * K.transpose()).eval();
-  if (!is_mirrored) return K;
+  if (form == MatrixForm::kDeformations) return without(rigid_motions({0.01, 0.012, 0.007}), K);
+  if (form != MatrixForm::kMirrored) return K;
   for (int axis = 0; axis < 3; ++axis) {
     ElementMatrix reflection = ElementMatrix::Zero();
     for (int n = 0; n < 8; ++n)
       for (int i = 0; i < 3; ++i) reflection(3 * (n ^ 1 << axis) + i, 3 * n + i) = i == axis ? -1.0 : 1.0;
     K = (0.5 * (K + reflection * K * reflection.transpose())).eval();
   }
-  const ElementMatrix translations = Eigen::Matrix3d::Identity().replicate(8, 8) / 8.0;
-  const ElementMatrix left = ElementMatrix::Identity() - translations;
-  return left * K * left;
+  return without(rigid_motions(Vec3::Ones()).leftCols<3>(), K);
 }
 
 Mat3 half_turn(int axis) { return Eigen::AngleAxisd(M_PI, Vec3::Unit(axis)).toRotationMatrix(); }
@@ -37,9 +60,8 @@ struct Specimen {
   explicit Specimen(MatrixForm matrix_form) : form(matrix_form) {
     std::srand(7);
     for (int lane = 0; lane < kLanes; ++lane) {
-      matrices.push_back(lane > 0 && form != MatrixForm::kTriangles
-                             ? matrices.front()
-                             : make_matrix(form == MatrixForm::kMirrored));
+      const bool is_own = form == MatrixForm::kTriangles || form == MatrixForm::kDeformations;
+      matrices.push_back(lane > 0 && !is_own ? matrices.front() : make_matrix(form));
       rotations.push_back(lane < 3 ? half_turn(lane) : Eigen::Quaterniond::UnitRandom().toRotationMatrix());
       for (int n = 0; n < 8; ++n) nodes[n * kLanes + lane] = (11 * n + 3 * lane) % kNodes;
       for (int i = 0; i < 3; ++i)
@@ -50,17 +72,21 @@ struct Specimen {
     pack();
   }
 
+  /// By the product's own means, which have to find the form.
   void pack() {
-    if (form == MatrixForm::kMirrored) {
-      const MirroredMatrix blocks = mirrored(matrices.front()).value();
-      for (int i = 0; i < blocks.size(); ++i) stiffness.push_back(static_cast<Scalar>(blocks.data()[i]));
-    } else if (form == MatrixForm::kWhole) {
-      for (int i = 0; i < 576; ++i) stiffness.push_back(static_cast<Scalar>(matrices.front().data()[i]));
-    } else {
-      for (int j = 0; j < 24; ++j)
-        for (int i = j; i < 24; ++i)
-          for (const ElementMatrix& K : matrices) stiffness.push_back(static_cast<Scalar>(K(i, j)));
+    ElementSet set;
+    set.node_count = 8 * kLanes;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      set.block.push_back(Vec3i(2 * lane, 0, 0));
+      set.nodes.emplace_back();
+      for (int n = 0; n < 8; ++n) set.nodes.back()[n] = 8 * lane + n;
+      set.stiffness.push_back(lane > 0 && matrices[lane] == matrices.front()
+                                  ? set.stiffness.front()
+                                  : std::make_shared<const RestMatrix>(matrices[lane]));
     }
+    packed = PackedStiffness<Scalar>(TiledElements(std::move(set)));
+    stiffness = packed.of_batch(0);
+    ASSERT_EQ(packed.form(0), form);
   }
 
   Eigen::Matrix<double, 24, 1> expected(int lane) const {
@@ -73,14 +99,13 @@ struct Specimen {
     return f;
   }
 
-  ElementBatch<Scalar> batch(Scalar* y) const {
-    return {form, stiffness.data(), rotation, nodes, x.data(), y};
-  }
+  ElementBatch<Scalar> batch(Scalar* y) const { return {form, stiffness, rotation, nodes, x.data(), y}; }
 
   MatrixForm form;
   std::vector<ElementMatrix> matrices;
   std::vector<Mat3> rotations;
-  std::vector<Scalar> stiffness;
+  PackedStiffness<Scalar> packed;
+  const Scalar* stiffness = nullptr;
   Scalar rotation[3 * kLanes];
   int nodes[8 * kLanes];
   Eigen::Matrix<Scalar, 4, kNodes> x;
@@ -104,7 +129,7 @@ void expect_products(MatrixForm form, void (*multiply)(const ElementBatch<Scalar
 TEST(Kernels, MultiplyByEveryFormOfMatrix) {
   for (const ElementKernel& kernel : element_kernels()) {
     SCOPED_TRACE(kernel.name);
-    for (MatrixForm form : {MatrixForm::kMirrored, MatrixForm::kWhole, MatrixForm::kTriangles}) {
+    for (MatrixForm form : kForms) {
       expect_products<float>(form, kernel.single, 1e-5);
       expect_products<double>(form, kernel.precise, 1e-13);
     }
@@ -115,7 +140,7 @@ TEST(Kernels, DiagonalBlocksTurnWithTheirElement) {
   constexpr int kEntries[2][3][2] = {{{0, 0}, {1, 1}, {2, 2}}, {{1, 2}, {0, 2}, {0, 1}}};
   for (const ElementKernel& kernel : element_kernels()) {
     SCOPED_TRACE(kernel.name);
-    for (MatrixForm form : {MatrixForm::kMirrored, MatrixForm::kWhole, MatrixForm::kTriangles}) {
+    for (MatrixForm form : kForms) {
       const Specimen<float> specimen(form);
       for (const bool beside : {false, true}) {
         alignas(64) float y[32 * kLanes];
@@ -135,8 +160,18 @@ TEST(Kernels, DiagonalBlocksTurnWithTheirElement) {
 }
 
 TEST(Kernels, AMatrixThatIsNotMirroredIsNotTakenForOne) {
-  EXPECT_TRUE(mirrored(make_matrix(true)).has_value());
-  EXPECT_FALSE(mirrored(make_matrix(false)).has_value());
+  EXPECT_TRUE(mirrored(make_matrix(MatrixForm::kMirrored)).has_value());
+  EXPECT_FALSE(mirrored(make_matrix(MatrixForm::kWhole)).has_value());
+}
+
+TEST(Kernels, AMatrixWithForcesAgainstRigidMotionsIsNotTakenForOneWithout) {
+  const ElementMatrix K = make_matrix(MatrixForm::kDeformations);
+  EXPECT_TRUE(deformations(K).has_value());
+  const Eigen::Matrix<double, 24, 6> motions = rigid_motions({0.01, 0.012, 0.007});
+  for (int i = 0; i < 6; ++i) {
+    const Eigen::Matrix<double, 24, 1> motion = motions.col(i).normalized();
+    EXPECT_FALSE(deformations(K + 1e-6 * K.norm() * motion * motion.transpose()).has_value()) << i;
+  }
 }
 
 TEST(Kernels, CorotationAnswersAlike) {
@@ -159,8 +194,8 @@ TEST(Kernels, CorotationAnswersAlike) {
   for (const CorotationKernel& kernel : corotation_kernels()) {
     alignas(64) double forces[32 * kLanes] = {}, rotations[9 * kLanes], energy[kLanes];
     bool regular[kLanes];
-    kernel.respond({x, nodes, gradient, size, MatrixForm::kTriangles, specimen.stiffness.data(), forces,
-                    rotations, energy, regular});
+    kernel.respond({x, nodes, gradient, size, MatrixForm::kTriangles, specimen.stiffness, forces, rotations,
+                    energy, regular});
     Eigen::VectorXd answer(42 * kLanes);
     answer << Eigen::Map<Eigen::VectorXd>(forces, 32 * kLanes),
         Eigen::Map<Eigen::VectorXd>(rotations, 9 * kLanes), Eigen::Map<Eigen::VectorXd>(energy, kLanes);
