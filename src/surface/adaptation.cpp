@@ -24,9 +24,10 @@ std::vector<const Trace*> longest_first(const FrontTrace& trace) {
 
 }  // namespace
 
-void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set<Diagonal>& avoided) {
-  for (DualCell& cell : contour.cells())
-    for (SheetGroup& group : cell.groups) {
+void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set<Diagonal>& avoided,
+           std::vector<int>& cells) {
+  for (const int cell : cells)
+    for (SheetGroup& group : contour.cells()[cell].groups) {
       group.adapted.reset();
       group.drawn_back.reset();
       group.times_drawn_back = 0;
@@ -38,12 +39,19 @@ void adapt(Contour& contour, const FrontTrace& trace, bool moves, const std::set
     ++number;
     for (const ChainLink& link : find_chain(contour, *part, avoided)) {
       SheetGroup& group = contour.cells()[link.cell].groups[link.group];
+      cells.push_back(link.cell);
       group.chain = link.continues ? ++number : number += 2;
       if (!moves) continue;
       group.adapted = link.X;
       group.edge_end = link.edge_end;
     }
   }
+}
+
+bool follows_trace(const DualCell& cell) {
+  return std::any_of(cell.groups.begin(), cell.groups.end(), [](const SheetGroup& group) {
+    return group.chain >= 0 || group.adapted || group.times_drawn_back > 0;
+  });
 }
 
 void freeze_cut_ends(Contour& contour, bool at_skin) {

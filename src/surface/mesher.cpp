@@ -1,6 +1,7 @@
 #include "mesher.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "cfem_cutting/volume/inside.h"
 
@@ -43,6 +44,41 @@ void Mesher::build(const Contour& contour) {
   surface_.label.reserve(2 * contour.sides().size());
   quads_.reserve(contour.sides().size());
   for (const LinkSide side : contour.sides()) add_polygon(contour, polygon_of(contour, side));
+  for (const Quad& quad : quads_) split(quad);
+  find_pieces();
+}
+
+/// Per vertex the quads and fans' triangles that it is a corner of.
+void Mesher::find_pieces() {
+  const auto for_corners = [&](const auto& work) {
+    int piece = 0;
+    for (const Quad& quad : quads_) {
+      for (const int v : quad.corners) work(v, piece);
+      ++piece;
+    }
+    for (const int t : fan_triangles_) {
+      for (const int v : surface_.triangles[t]) work(v, piece);
+      ++piece;
+    }
+  };
+  first_piece_.assign(surface_.vertices.size() + 1, 0);
+  for_corners([&](int v, int) { ++first_piece_[v + 1]; });
+  std::partial_sum(first_piece_.begin(), first_piece_.end(), first_piece_.begin());
+  pieces_.resize(first_piece_.back());
+  std::vector<int> next(first_piece_.begin(), first_piece_.end() - 1);
+  for_corners([&](int v, int piece) { pieces_[next[v]++] = piece; });
+}
+
+/// Those at the vertices of cells, ascending.
+std::vector<int> Mesher::pieces_at(const std::vector<int>& cells) const {
+  std::vector<int> pieces;
+  for (const int cell : cells)
+    for (const int v : vertex_of_sheet_[cell])
+      if (v >= 0)
+        pieces.insert(pieces.end(), pieces_.begin() + first_piece_[v], pieces_.begin() + first_piece_[v + 1]);
+  std::sort(pieces.begin(), pieces.end());
+  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+  return pieces;
 }
 
 void Mesher::add_polygon(const Contour& contour, const Polygon& polygon) {
@@ -77,8 +113,9 @@ int Mesher::sheet_vertex(const Contour& contour, int cell, int sheet) {
   if (vertex >= 0) return vertex;
   const DualCell& dual = contour.cells()[cell];
   const int group = dual.sheets[sheet].group;
-  vertex = add_fixed_vertex(dual.groups[group].X(), dual.sheets[sheet].voxel, dual.index);
-  anchors_[vertex] = {cell, group, dual.sheets[sheet].voxel};
+  const Anchor anchor{cell, group, dual.sheets[sheet].voxel};
+  vertex = add_fixed_vertex(dual.groups[group].X(), voxel_of(contour, anchor), dual.index);
+  anchors_[vertex] = anchor;
   return vertex;
 }
 
@@ -121,27 +158,33 @@ void Mesher::add_triangle(const Contour& contour, const Polygon& polygon, int a,
   surface_.label.push_back(static_cast<std::uint8_t>(voxel.label));
 }
 
-void Mesher::place(const Contour& contour, bool all) {
-  std::vector<bool> moved(surface_.vertices.size(), all);
-  for (std::size_t v = 0; v < surface_.vertices.size(); ++v) {
-    if (anchors_[v].cell < 0) continue;
-    SurfaceVertex& vertex = surface_.vertices[v];
-    const SheetGroup& group = contour.cells()[anchors_[v].cell].groups[anchors_[v].group];
-    vertex.cut_end = group.cut_end;
-    adapted_[v] = group.adapted || group.frozen;
-    if (!all && chain_[v] == group.chain && vertex.edge_end == group.edge_end && vertex.X == group.X())
-      continue;
-    vertex.X = group.X();
-    vertex.voxel = voxel_of(contour, anchors_[v]);
-    vertex.on_front = group.chain >= 0;
-    vertex.edge_end = group.edge_end;
-    chain_[v] = group.chain;
-    moved[v] = true;
+void Mesher::place(const Contour& contour, const std::vector<int>& cells) {
+  std::vector<char> moved(surface_.vertices.size(), 0);
+  for (const int cell : cells)
+    for (const int v : vertex_of_sheet_[cell])
+      if (v >= 0 && move(contour, v)) moved[v] = 1;
+  const int quads = static_cast<int>(quads_.size());
+  for (const int piece : pieces_at(cells)) {
+    if (piece >= quads) break;
+    const auto& [a, b, c, d] = quads_[piece].corners;
+    if (moved[a] || moved[b] || moved[c] || moved[d]) split(quads_[piece]);
   }
-  for (const Quad& quad : quads_) {
-    const auto& [a, b, c, d] = quad.corners;
-    if (moved[a] || moved[b] || moved[c] || moved[d]) split(quad);
-  }
+}
+
+/// To where its group is.
+/// @return whether anything changed that quads depend on
+bool Mesher::move(const Contour& contour, int v) {
+  SurfaceVertex& vertex = surface_.vertices[v];
+  const SheetGroup& group = contour.cells()[anchors_[v].cell].groups[anchors_[v].group];
+  vertex.cut_end = group.cut_end;
+  adapted_[v] = group.adapted || group.frozen;
+  if (chain_[v] == group.chain && vertex.edge_end == group.edge_end && vertex.X == group.X()) return false;
+  vertex.X = group.X();
+  vertex.voxel = voxel_of(contour, anchors_[v]);
+  vertex.on_front = group.chain >= 0;
+  vertex.edge_end = group.edge_end;
+  chain_[v] = group.chain;
+  return true;
 }
 
 /// What a vertex follows. A virtual intersection point may be far from its cell: where its sheet alone is
@@ -163,20 +206,22 @@ bool Mesher::is_turned(int triangle) const {
   return !(direction % 2 ? shape(A, B, C, direction / 2) > 0.0 : shape(A, C, B, direction / 2) > 0.0);
 }
 
-std::vector<Anchor> Mesher::turned() const {
+std::vector<Anchor> Mesher::turned(const std::vector<int>& cells) const {
   std::vector<Anchor> anchors;
-  const auto any_adapted = [&](const auto& corners) {
-    return std::any_of(corners.begin(), corners.end(), [&](int v) { return adapted_[v] != 0; });
-  };
   const auto take = [&](const auto& corners) {
     for (const int v : corners)
       if (adapted_[v]) anchors.push_back(anchors_[v]);
   };
-  for (const int t : fan_triangles_)
-    if (any_adapted(surface_.triangles[t]) && is_turned(t)) take(surface_.triangles[t]);
-  for (const Quad& quad : quads_)  // the corner opposite may have left no better diagonal
-    if (any_adapted(quad.corners) && (is_turned(quad.first_triangle) || is_turned(quad.first_triangle + 1)))
-      take(quad.corners);
+  const int quads = static_cast<int>(quads_.size());
+  for (const int piece : pieces_at(cells)) {
+    if (piece < quads) {  // the corner opposite may have left no better diagonal
+      const Quad& quad = quads_[piece];
+      if (is_turned(quad.first_triangle) || is_turned(quad.first_triangle + 1)) take(quad.corners);
+    } else {
+      const int triangle = fan_triangles_[piece - quads];
+      if (is_turned(triangle)) take(surface_.triangles[triangle]);
+    }
+  }
   const auto key = [](const Anchor& a) { return std::pair(a.cell, a.group); };
   std::sort(anchors.begin(), anchors.end(),
             [&](const Anchor& a, const Anchor& b) { return key(a) < key(b); });
@@ -186,12 +231,16 @@ std::vector<Anchor> Mesher::turned() const {
   return anchors;
 }
 
-std::vector<std::pair<Anchor, Anchor>> Mesher::missed_diagonals() const {
+std::vector<std::pair<Anchor, Anchor>> Mesher::missed_diagonals(const std::vector<int>& cells) const {
   std::vector<std::pair<Anchor, Anchor>> missed;
-  for (const Quad& quad : quads_)
+  const int quads = static_cast<int>(quads_.size());
+  for (const int piece : pieces_at(cells)) {
+    if (piece >= quads) break;
+    const Quad& quad = quads_[piece];
     for (const int i : {0, 1})
       if (is_on_chain(quad, i) && !(worse_shape(quad, i) > 0.0))
         missed.emplace_back(anchors_[quad.corners[i]], anchors_[quad.corners[i + 2]]);
+  }
   return missed;
 }
 

@@ -16,11 +16,11 @@ struct Anchor {
 /// Joins the sheets' vertices to triangles: a polygon for each link side.
 class Mesher {
  public:
-  /// Vertices and triangles anew; their places follow.
+  /// Vertices and triangles anew.
   void build(const Contour& contour);
 
-  /// Places the vertices and splits quads whose corners moved, or all.
-  void place(const Contour& contour, bool all);
+  /// Places the vertices of cells, and splits quads whose corners moved.
+  void place(const Contour& contour, const std::vector<int>& cells);
 
   /// A vertex of its own in a cell's face, for one of several arcs there between the same two sheets.
   struct Midpoint {
@@ -33,11 +33,11 @@ class Mesher {
   void move(int midpoint, const Vec3& X) { surface_.vertices[midpoint].X = X; }
 
   /// The vertices with virtual intersection points of fans' triangles that are turned or flat about their
-  /// link, and of quads with such triangles: each once.
-  std::vector<Anchor> turned() const;
+  /// link, and of quads with such triangles, at cells' vertices: each once.
+  std::vector<Anchor> turned(const std::vector<int>& cells) const;
 
-  /// Those that the chain takes but the quads can't.
-  std::vector<std::pair<Anchor, Anchor>> missed_diagonals() const;
+  /// Those at cells' vertices that the chain takes but the quads can't.
+  std::vector<std::pair<Anchor, Anchor>> missed_diagonals(const std::vector<int>& cells) const;
 
   const TissueSurface& surface() const { return surface_; }
 
@@ -57,6 +57,9 @@ class Mesher {
   int add_fixed_vertex(const Vec3& X, int voxel, const Vec3i& cell);
   void add_triangle(const Contour& contour, const Polygon& polygon, int a, int b, int c);
   static int voxel_of(const Contour& contour, const Anchor& anchor);
+  void find_pieces();
+  std::vector<int> pieces_at(const std::vector<int>& cells) const;
+  bool move(const Contour& contour, int vertex);
   bool is_turned(int triangle) const;
   void split(const Quad& quad);
   double worse_shape(const Quad& quad, int i) const;
@@ -67,6 +70,8 @@ class Mesher {
   std::vector<int> direction_;  // per triangle: of its link
   std::vector<Quad> quads_;
   std::vector<int> fan_triangles_;
+  std::vector<int> first_piece_;                     // (|vertices| + 1) into pieces_
+  std::vector<int> pieces_;                          // per vertex: quads, and beyond them fans' triangles
   std::vector<Anchor> anchors_;                      // per vertex; fixed ones have cell −1
   std::vector<int> chain_;                           // per vertex: SheetGroup::chain
   std::vector<char> adapted_;                        // per vertex: it has a virtual intersection point

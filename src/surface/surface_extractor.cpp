@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <numeric>
+
 #include "adaptation.h"
 #include "cfem_cutting/surface/tissue_surface.h"
 #include "mesher.h"
@@ -11,29 +14,34 @@ struct SurfaceExtractor::State {
   Contour contour;
   NearestOnCut on_cut;
   Mesher mesher;
-  void follow(const FrontTrace& next, bool adapts, bool all);
-
   FrontTrace trace;
+  std::vector<int> following;  // cells that have to do with the trace
   bool freeze_next = false;
+
+  void follow(const FrontTrace& next, bool adapts, bool all);
+  void keep_following(std::vector<int>&& cells);
 };
 
 namespace {
 
 /// Vertices at the ends of a trace, on detours and on the cut leave their cells; where that turns a triangle,
 /// they go back, those on the trace last.
-void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnCut& on_cut) {
+void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnCut& on_cut,
+            std::vector<int>& cells) {
   constexpr int kTries = 20;
   for (int i = 0; i < kTries; ++i) {
-    bool moved = false;
-    const std::vector<Anchor> turned = mesher.turned();
+    std::vector<int> drawn_back;
+    const std::vector<Anchor> turned = mesher.turned(cells);
     for (const bool on_trace : {false, true}) {
-      if (on_trace && moved) break;
+      if (on_trace && !drawn_back.empty()) break;
       for (const Anchor& anchor : turned)
-        if (contour.cells()[anchor.cell].groups[anchor.group].adapted.has_value() == on_trace)
-          moved = draw_back(contour, anchor.cell, anchor.group, on_cut) || moved;
+        if (contour.cells()[anchor.cell].groups[anchor.group].adapted.has_value() == on_trace &&
+            draw_back(contour, anchor.cell, anchor.group, on_cut))
+          drawn_back.push_back(anchor.cell);
     }
-    if (!moved) return;
-    mesher.place(contour, false);
+    if (drawn_back.empty()) return;
+    mesher.place(contour, drawn_back);
+    cells.insert(cells.end(), drawn_back.begin(), drawn_back.end());
   }
 }
 
@@ -51,17 +59,30 @@ void SurfaceExtractor::State::follow(const FrontTrace& next, bool adapts, bool a
   constexpr int kTries = 3;
   const bool settles = (all || freeze_next) && adapts && on_cut;
   if (settles) settle_midpoints(contour, mesher, on_cut);
+  std::vector<int> cells = following;
+  if (all || settles) {
+    cells.resize(contour.cells().size());
+    std::iota(cells.begin(), cells.end(), 0);
+  }
   std::set<Diagonal> avoided;
   for (int i = 0; i < kTries; ++i) {
-    adapt(contour, next, adapts, avoided);
+    adapt(contour, next, adapts, avoided, cells);
     if (settles) settle_on_cut(contour, on_cut);
-    mesher.place(contour, all && i == 0);
-    unfold(contour, mesher, on_cut);
-    const auto missed = mesher.missed_diagonals();
+    mesher.place(contour, cells);
+    unfold(contour, mesher, on_cut, cells);
+    const auto missed = mesher.missed_diagonals(cells);
     if (missed.empty()) break;
     for (const auto& [a, b] : missed) avoided.insert(diagonal_between({a.cell, a.group}, {b.cell, b.group}));
   }
   trace = next;
+  keep_following(std::move(cells));
+}
+
+void SurfaceExtractor::State::keep_following(std::vector<int>&& cells) {
+  std::sort(cells.begin(), cells.end());
+  const auto is_left = [&](int cell) { return !follows_trace(contour.cells()[cell]); };
+  cells.erase(std::remove_if(cells.begin(), std::unique(cells.begin(), cells.end()), is_left), cells.end());
+  following = std::move(cells);
 }
 
 const TissueSurface& SurfaceExtractor::extract(const FrontTrace& trace, bool adapts) {
