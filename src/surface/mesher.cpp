@@ -71,13 +71,14 @@ void Mesher::find_pieces() {
 
 /// Those at the vertices of cells, ascending.
 std::vector<int> Mesher::pieces_at(const std::vector<int>& cells) const {
-  std::vector<int> pieces;
+  std::vector<char> flags(quads_.size() + fan_triangles_.size(), 0);
   for (const int cell : cells)
     for (const int v : vertex_of_sheet_[cell])
       if (v >= 0)
-        pieces.insert(pieces.end(), pieces_.begin() + first_piece_[v], pieces_.begin() + first_piece_[v + 1]);
-  std::sort(pieces.begin(), pieces.end());
-  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+        for (int i = first_piece_[v]; i < first_piece_[v + 1]; ++i) flags[pieces_[i]] = 1;
+  std::vector<int> pieces;
+  for (std::size_t piece = 0; piece < flags.size(); ++piece)
+    if (flags[piece]) pieces.push_back(static_cast<int>(piece));
   return pieces;
 }
 

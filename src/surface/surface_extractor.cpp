@@ -29,9 +29,12 @@ namespace {
 void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnCut& on_cut,
             std::vector<int>& cells) {
   constexpr int kTries = 20;
+  std::vector<int> near = cells;
   for (int i = 0; i < kTries; ++i) {
     std::vector<int> drawn_back;
-    const std::vector<Anchor> turned = mesher.turned(cells);
+    const std::vector<Anchor> turned = mesher.turned(near);
+    near.clear();
+    for (const Anchor& anchor : turned) near.push_back(anchor.cell);
     for (const bool on_trace : {false, true}) {
       if (on_trace && !drawn_back.empty()) break;
       for (const Anchor& anchor : turned)
