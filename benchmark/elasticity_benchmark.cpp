@@ -101,7 +101,7 @@ BENCHMARK(step)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// Equilibrium under a hundredth of the weight. Arguments: elements across, per cent of the height that is
+/// What the weight does to a cube at rest. Arguments: elements across, per cent of the height that is
 /// cut, ν in per cent, tissue.
 void equilibrium(benchmark::State& state) {
   const auto tissue = static_cast<CubeTissue>(state.range(3));

@@ -10,9 +10,17 @@ namespace {
 
 constexpr double kWeakSpring = 1e-3;       // of E h
 constexpr double kNegligibleForce = 1e-6;  // of E h²
-constexpr double kLoosestSolve = 0.1;      // inner tolerance: the tangent is inexact anyway
+constexpr double kLoosestSolve = 0.1;      // inner tolerance
 constexpr double kPartOfFirst = 1e-2;      // of the first residual: what residuals are relative to at least
 constexpr double kTightestSolve = 1e-13;
+
+/// Of a Newton step's solve: as loose as the last step was poor (Eisenstat and Walker 1996, choice 2), and no
+/// tighter than the whole needs.
+double inner_tolerance(double tolerance, double last_residual, double residual) {
+  const double gain = last_residual > 0.0 ? residual / last_residual : 1.0;
+  const double needed = 0.3 * tolerance / std::max(residual, 1e-300);
+  return std::clamp(std::max(0.9 * gain * gain, needed), kTightestSolve, kLoosestSolve);
+}
 
 }  // namespace
 
@@ -80,7 +88,8 @@ double Equilibrium::rounding(const NodeField& x) const {
 SolveReport Equilibrium::solve_newton(Multigrid& multigrid, ConjugateGradients& solver,
                                       const SolverOptions& options, NodeField& x, int max_newton) {
   SolveReport total;
-  double initial = 0.0;
+  double initial = 0.0, last_residual = 0.0;
+  NodeField last_x, last_f;
   model_.respond(x, multigrid.pool(), elastic_);
   for (int newton = 0;; ++newton) {
     NodeField f = forces(elastic_, x);
@@ -90,12 +99,15 @@ SolveReport Equilibrium::solve_newton(Multigrid& multigrid, ConjugateGradients& 
     for (std::size_t i = 0; i < held_.nodes.size(); ++i)
       held_in_place = held_in_place && x.col(held_.nodes[i]) == held_.positions[i];
     initial = std::max(initial, f.norm());
+    if (last_x.cols() > 0) secants_.add(x - last_x, last_f - f);
+    last_x = held_in_place ? x : NodeField();
+    last_f = f;
     total.residual = f.norm() / reference;
     total.inverted_elements = elastic_.inverted;
     total.converged = held_in_place && (total.residual <= options.tolerance || f.norm() <= rounding(x));
     if (total.converged || newton == max_newton) return total;
-    const double inner =
-        std::clamp(0.3 * options.tolerance / std::max(total.residual, 1e-300), kTightestSolve, kLoosestSolve);
+    const double inner = inner_tolerance(options.tolerance, last_residual, total.residual);
+    last_residual = total.residual;
     if (!newton_step(multigrid, solver, options, inner, f, x, total)) return total;
   }
 }
@@ -105,16 +117,22 @@ bool Equilibrium::newton_step(Multigrid& multigrid, ConjugateGradients& solver, 
                               double tolerance, const NodeField& f, NodeField& x, SolveReport& total) {
   const LinearSystem system(multigrid, model_, std::move(elastic_.rotations), {spring_, 1.0, &constraints_},
                             held_.nodes, precision_for(tolerance));
+  const SolveGoal goal{tolerance, options.max_iterations, model_.mesh().block_size().mean()};
+  const auto solve = [&](const NodeField& load, NodeField dx) {
+    total.iterations += solver.solve(system, load, dx, goal).iterations;
+    return dx;
+  };
   NodeField dx = NodeField::Zero(3, x.cols());
   bool held_moves = false;
   for (std::size_t i = 0; i < held_.nodes.size(); ++i) {
     dx.col(held_.nodes[i]) = held_.positions[i] - x.col(held_.nodes[i]);
     held_moves = held_moves || !dx.col(held_.nodes[i]).isZero(0.0);
   }
-  const SolveGoal goal{tolerance, options.max_iterations, model_.mesh().block_size().mean()};
-  total.iterations += solver.solve(system, f, dx, goal).iterations;
-  if (!held_moves) return search_line(multigrid.pool(), dx, f, x);
-  x += dx;
+  if (!held_moves) {
+    dx = secants_.direction(f, [&](const NodeField& load) { return solve(load, dx); });
+    return search_line(multigrid.pool(), dx, f, x);
+  }
+  x += solve(f, dx);
   for (std::size_t i = 0; i < held_.nodes.size(); ++i) x.col(held_.nodes[i]) = held_.positions[i];
   model_.respond(x, multigrid.pool(), elastic_);
   return true;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "conjugate_gradients.h"
+#include "secant_pairs.h"
 
 namespace cfem_cutting {
 
@@ -13,8 +14,8 @@ class Equilibrium {
   Equilibrium(const ElasticModel& model, const NodeField& start, const Vec3& gravity, const HeldNodes& held,
               const std::vector<PointConstraint>& constraints);
 
-  /// Newton's method with backtracking. The tangent leaves out ∂R/∂x, so convergence is linear, at a rate of
-  /// about the strain.
+  /// Newton's method with backtracking. The tangent leaves out ∂R/∂x; secants make up for it. (Without them
+  /// convergence would be linear, at a rate of about the strain.)
   SolveReport solve_newton(Multigrid& multigrid, ConjugateGradients& solver, const SolverOptions& options,
                            NodeField& x, int max_newton);
 
@@ -37,6 +38,7 @@ class Equilibrium {
   NodeField weight_;         // N
   double force_unit_;        // N, E h²
   ElasticResponse elastic_;  // where Newton's method is
+  SecantPairs secants_;
 };
 
 }  // namespace cfem_cutting
