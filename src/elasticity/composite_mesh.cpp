@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <tuple>
+#include <utility>
 
 #include "morton.h"
 #include "node_numbering.h"
@@ -67,24 +67,16 @@ std::vector<Vec3i> assign_blocks(const VoxelVolume& volume, const CompositeMesh&
   return block;
 }
 
-/// Voxels in the order of their elements: by block along Morton's curve, then by the component's first voxel.
-std::vector<int> sort_by_element(const std::vector<Vec3i>& block, const std::vector<int>& root) {
-  std::vector<std::tuple<std::uint64_t, int, int>> keys;
-  keys.reserve(root.size());
-  for (std::size_t v = 0; v < root.size(); ++v)
-    keys.emplace_back(morton_place(block[v]), root[v], static_cast<int>(v));
+/// Roots of components, by block along Morton's curve.
+std::vector<int> sort_components(const std::vector<Vec3i>& block, const std::vector<int>& root) {
+  std::vector<std::pair<std::uint64_t, int>> keys;
+  for (int v = 0; v < static_cast<int>(root.size()); ++v)
+    if (root[v] == v) keys.emplace_back(morton_place(block[v]), v);
   std::sort(keys.begin(), keys.end());
-  std::vector<int> order;
-  order.reserve(keys.size());
-  for (const auto& key : keys) order.push_back(std::get<2>(key));
-  return order;
-}
-
-std::size_t count_components(const std::vector<int>& root) {
-  std::size_t count = 0;
-  for (std::size_t v = 0; v < root.size(); ++v)
-    if (root[v] == static_cast<int>(v)) ++count;
-  return count;
+  std::vector<int> sorted;
+  sorted.reserve(keys.size());
+  for (const auto& [place, v] : keys) sorted.push_back(v);
+  return sorted;
 }
 
 /// Unites the private nodes of two elements that lie at the same corner positions.
@@ -127,12 +119,13 @@ CompositeMesh::CompositeMesh(const VoxelVolume& volume, int level)
   const Joints joints = voxel_joints(volume);
   const std::vector<Vec3i> block = assign_blocks(volume, *this, joints);
   const std::vector<int> root = components_in_blocks(joints, block);
-  elements_.reserve(count_components(root));
-  for (int v : sort_by_element(block, root)) {
-    const bool starts_element = elements_.empty() || root[elements_.back().voxels.front()] != root[v];
-    if (starts_element) elements_.push_back({block[v], {}, {}});
-    elements_.back().voxels.push_back(v);
-    element_of_voxel_[v] = static_cast<int>(elements_.size()) - 1;
+  for (const int v : sort_components(block, root)) {
+    element_of_voxel_[v] = static_cast<int>(elements_.size());
+    elements_.push_back({block[v], {}, {}});
+  }
+  for (int v = 0; v < static_cast<int>(root.size()); ++v) {
+    element_of_voxel_[v] = element_of_voxel_[root[v]];  // its root comes first
+    elements_[element_of_voxel_[v]].voxels.push_back(v);
   }
 
   UnionFind nodes(static_cast<int>(8 * elements_.size()));

@@ -1,5 +1,7 @@
 #include "element_product.h"
 
+#include <cmath>
+
 #include "node_loops.h"
 #include "rotation.h"
 
@@ -24,6 +26,7 @@ void ElementProduct::arrange(ElementsPointer elements) {
   single_.stiffness = PackedStiffness<float>(*elements_);  // every solve needs it, the other hardly any
   single_.stiffness_fits = true;
   double_.stiffness_fits = false;
+  diagonal_rotations_.clear();
   rotate(std::vector<Mat3>(elements_->set.size(), Mat3::Identity()));
 }
 
@@ -37,15 +40,29 @@ void ElementProduct::apply(const SingleField& p, SingleField& y) const {
   apply(p, [&](int node, const Quad& sum) { y.col(node) = sum; });
 }
 
-void ElementProduct::find_diagonal(std::vector<NodeBlock>& blocks) const {
+const std::vector<NodeBlock>& ElementProduct::diagonal() {
   fit(single_);
-  blocks.resize(elements_->set.node_count);
+  if (has_turned()) find_diagonal();
+  return diagonal_;
+}
+
+bool ElementProduct::has_turned() const {
+  if (diagonal_rotations_.size() != single_.rotations.size()) return true;
+  float largest = 0.0f;
+  for (std::size_t i = 0; i < diagonal_rotations_.size(); ++i)
+    largest = std::max(largest, std::abs(single_.rotations[i] - diagonal_rotations_[i]));
+  return largest > kDiagonalTurn / 4.0;  // see rodrigues_parameters
+}
+
+void ElementProduct::find_diagonal() {
+  diagonal_rotations_ = single_.rotations;
+  diagonal_.resize(elements_->set.node_count);
   for (const bool beside : {false, true})
     elements_->tiles.sum_up<float>(
         *pool_,
         [&](int b, float* y) { cfem_cutting::find_diagonal(batch<float>(single_, b, nullptr, y), beside); },
         [&](int node, const Quad& sum) {
-          (beside ? blocks[node].beside() : blocks[node].diagonal()) = sum.head<3>();
+          (beside ? diagonal_[node].beside() : diagonal_[node].diagonal()) = sum.head<3>();
         });
 }
 

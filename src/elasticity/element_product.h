@@ -51,8 +51,10 @@ class ElementProduct {
 
   void apply(const SingleField& p, SingleField& y) const;  ///< y = Σ R K Rᵀ p
 
-  /// The nodes' 3 × 3 blocks of Σ R K Rᵀ, N/m.
-  void find_diagonal(std::vector<NodeBlock>& blocks) const;
+  /// The nodes' 3 × 3 blocks of Σ R K Rᵀ, N/m, up to date within kDiagonalTurn: until an element has turned
+  /// by more, they are those of the last call.
+  const std::vector<NodeBlock>& diagonal();
+  static constexpr double kDiagonalTurn = 0.05;  ///< rad
 
  private:
   /// Arrays for the kernel in one precision.
@@ -66,6 +68,8 @@ class ElementProduct {
   void fit(Packed<Scalar>& packed) const;
   template <typename Scalar>
   void pack_rotations(std::vector<Scalar>& packed) const;
+  bool has_turned() const;
+  void find_diagonal();
   template <typename Scalar>
   ElementBatch<Scalar> batch(const Packed<Scalar>& packed, int b, const Scalar* p, Scalar* y) const {
     return {packed.stiffness.form(b),
@@ -81,6 +85,8 @@ class ElementProduct {
   std::vector<Mat3> rotations_;
   mutable Packed<float> single_;
   mutable Packed<double> double_;
+  std::vector<NodeBlock> diagonal_;
+  std::vector<float> diagonal_rotations_;  // packed, of diagonal_
 };
 
 }  // namespace cfem_cutting

@@ -44,8 +44,8 @@ void Equilibrium::find_floating_nodes() {
 
   // The stiffest element stands for E h.
   double stiffness = 0.0;
-  for (int e = 0; e < static_cast<int>(model_.mesh().elements().size()); ++e)
-    stiffness = std::max(stiffness, model_.stiffness(e).trace() / 24.0);
+  for (const MatrixPointer& K : model_.elements()->set.stiffness)
+    stiffness = std::max(stiffness, K->trace / 24.0);
   force_unit_ = stiffness * model_.mesh().block_size().mean();
   for (int node = 0; node < model_.mesh().node_count(); ++node)
     if (floating[node]) spring_[node] = kWeakSpring * stiffness;

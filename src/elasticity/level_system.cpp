@@ -113,11 +113,11 @@ void LevelSystem::for_nodes(const Work& work) const {
 }
 
 void LevelSystem::invert_blocks() {
-  product_.find_diagonal(blocks_);
+  const std::vector<NodeBlock>& blocks = product_.diagonal();
   inverse_.resize(held_.size());
   for_nodes([&](int begin, int end) {
     for (int n = begin; n < end; ++n)
-      inverse_[n] = held_[n] ? NodeBlock() : blocks_[n].inverse(stiffness_factor_, node_diagonal_[n]);
+      inverse_[n] = held_[n] ? NodeBlock() : blocks[n].inverse(stiffness_factor_, node_diagonal_[n]);
   });
 }
 

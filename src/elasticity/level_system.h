@@ -88,7 +88,6 @@ class LevelSystem {
   Eigen::VectorXf node_diagonal_;
   float stiffness_factor_ = 1.0f;
   std::vector<ConstraintRow> constraints_;
-  std::vector<NodeBlock> blocks_;            // N/m, of Σ R K Rᵀ
   std::vector<NodeBlock> inverse_;           // m/N, M⁻¹ without constraints; zero for held nodes
   Eigen::LDLT<Eigen::MatrixXf> compliance_;  // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
   DirectSolver direct_;
