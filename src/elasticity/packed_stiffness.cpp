@@ -1,5 +1,6 @@
 #include "packed_stiffness.h"
 
+#include <algorithm>
 #include <unordered_map>
 
 #include "mirrored_matrix.h"
@@ -28,6 +29,9 @@ struct LaneWriter {
 template <typename Scalar>
 PackedStiffness<Scalar>::PackedStiffness(const TiledElements& elements) {
   const ElementTiles& tiles = elements.tiles;
+  const auto own = std::count_if(tiles.batches.begin(), tiles.batches.end(),
+                                 [](const ElementTiles::Batch& batch) { return !batch.shared; });
+  entries_.reserve(static_cast<std::size_t>(own) * kTriangle * kLanes);  // mostly less
   std::unordered_map<const RestMatrix*, int> batch_of_matrix;
   for (int b = 0; b < tiles.size(); ++b) {
     const ElementTiles::Batch& batch = tiles.batches[b];
