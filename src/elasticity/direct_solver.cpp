@@ -32,7 +32,9 @@ void DirectSolver::factorise(const ElementProduct& product, float stiffness_fact
   const auto size = 3 * static_cast<Eigen::Index>(held.size());
   Eigen::SparseMatrix<double> A(size, size);
   A.setFromTriplets(entries_.begin(), entries_.end());
-  factors_.compute(A);
+  if (!analysed_) factors_.analyzePattern(A);
+  analysed_ = true;
+  factors_.factorize(A);
 }
 
 void DirectSolver::solve(const SingleField& b, SingleField& x) const {

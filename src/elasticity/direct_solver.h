@@ -17,12 +17,16 @@ class DirectSolver {
   void factorise(const ElementProduct& product, float stiffness_factor, const Eigen::VectorXf& node_diagonal,
                  const std::vector<ConstraintRow>& constraints, const std::vector<char>& held);
 
+  /// The elements are others now. (Constraints are on one element's nodes each and add no entries.)
+  void forget_pattern() { analysed_ = false; }
+
   /// x = A⁻¹ b
   void solve(const SingleField& b, SingleField& x) const;
 
  private:
   void add(int row_node, int column_node, const Mat3& block);
 
+  bool analysed_ = false;
   std::vector<char> held_;
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;

@@ -41,6 +41,7 @@ void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
   node_diagonal_ = Eigen::VectorXf::Zero(elements->set.node_count);
   stiffness_factor_ = 1.0f;
   constraints_.clear();
+  direct_.forget_pattern();
   product_.arrange(std::move(elements));
   mean_at_rest_ = product_.elements().set.trace() / (3.0 * held_.size());
 }
