@@ -61,6 +61,7 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
         galerkin_[levels_.size() - 1].assemble(elements, fine.system.held(), coarsening);
     fine.parent = std::move(coarsening.parent);
     fine.interpolation = without_held(coarsening.interpolation, fine.system.held());
+    fine.prolongation = Prolongation(fine.interpolation);
     fine.restriction = fine.interpolation.transposed(coarsening.coarse.node_count);
     std::vector<char> none(coarsening.coarse.node_count, 0);
     add_level(std::make_shared<TiledElements>(std::move(coarsening.coarse)), std::move(none));
@@ -136,7 +137,7 @@ void Multigrid::cycle(std::size_t l, const SingleField& b, SingleField& x) const
   level.restriction.apply(pool_, residual, level.coarse_load);
   cycle(l + 1, level.coarse_load, level.coarse_x);
   for (int i = 1; i < levels_[l + 1].cycles; ++i) cycle_again(l + 1, level.coarse_load, level.coarse_x);
-  level.interpolation.add(pool_, level.coarse_x, x);
+  level.prolongation.add(pool_, level.coarse_x, x);
   level.system.smooth(b, x);
 }
 

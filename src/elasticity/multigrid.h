@@ -49,6 +49,7 @@ class Multigrid {
     int cycles = 1;           // on this level, for each on the finer one
     std::vector<int> parent;  // coarse element of each element
     Interpolation interpolation, restriction;
+    Prolongation prolongation;
     mutable SingleField coarse_load, coarse_x;
     mutable SingleField left, change;  // of the second cycle
   };
