@@ -27,7 +27,7 @@ class ElementTiles {
   ElementTiles(const ElementSet& elements, const NodeCorners& at);
 
   /// Elements of a tile, at most.
-  static int tile_size(int elements) { return std::clamp(elements / 4, kTile / 4, kTile); }
+  static int tile_size(int elements) { return std::clamp(elements / 8, 128, kTile); }
 
   int size() const { return static_cast<int>(batches.size()); }
   const int* nodes_of(int batch) const { return nodes.data() + static_cast<std::size_t>(batch) * 8 * kLanes; }
@@ -75,7 +75,7 @@ class ElementTiles {
   std::vector<int> nodes;            ///< (|batches| × 8 × lanes)
 
  private:
-  static constexpr int kTile = 512;             // elements, at most
+  static constexpr int kTile = 2048;             // elements, at most
   static constexpr int kEntries = 32 * kLanes;  // of a batch
 
   template <typename Scalar>
