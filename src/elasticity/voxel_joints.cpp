@@ -1,24 +1,9 @@
 #include "voxel_joints.h"
 
+#include "cfem_cutting/volume/link_way.h"
+
 namespace cfem_cutting {
 namespace {
-
-constexpr int kLongestWay = 3;  // links
-
-/// Whether a shortest way between two linked voxels consists of intact links.
-bool are_close(const VoxelVolume& volume, int v, int w) {
-  if (v == w) return true;
-  const Vec3i way = volume.voxel(w).index - volume.voxel(v).index;
-  if (way.cwiseAbs().sum() > kLongestWay) return false;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (way[axis] == 0) continue;
-    const int direction = 2 * axis + (way[axis] > 0 ? 1 : 0);
-    if (volume.voxel(v).link[direction] == LinkState::kIntact &&
-        are_close(volume, volume.voxel(v).neighbour[direction], w))
-      return true;
-  }
-  return false;
-}
 
 void join_hosted(const VoxelVolume& volume, int v, std::vector<std::pair<int, int>>& joints) {
   const Voxel& voxel = volume.voxel(v);
@@ -28,7 +13,7 @@ void join_hosted(const VoxelVolume& volume, int v, std::vector<std::pair<int, in
     if (other < 0 || other == voxel.host) continue;
     const bool counted_there = !volume.voxel(other).linked() && other < v;
     const int other_host = volume.voxel(other).linked() ? other : volume.voxel(other).host;
-    if (!counted_there && are_close(volume, voxel.host, other_host)) joints.emplace_back(v, other);
+    if (!counted_there && are_joined(volume, voxel.host, other_host)) joints.emplace_back(v, other);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cfem_cutting/volume/link_way.h"
 #include "simulation_state.h"
 
 namespace cfem_cutting {
@@ -15,16 +16,22 @@ constexpr double kDentReach = 4.0, kCrowded = 0.25;
 constexpr double kStretch = 1.5;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// The part of a segment from a point in tissue on that is in tissue, tested in steps of 1/16.
+/// The part of a segment from a point in tissue on that is in the same tissue, tested in steps of 1/16: not in
+/// other tissue that only touches it.
 Vec3 go_in_tissue(const VoxelVolume& volume, const Vec3& from, const Vec3& way) {
-  constexpr int kSteps = 16;
-  Vec3 at = from;
-  for (int i = 1; i <= kSteps; ++i) {
-    const Vec3 next = from + way * (static_cast<double>(i) / kSteps);
-    if (tissue_voxel_at(volume, next) < 0) return find_entry(volume, next, at).X;
-    at = next;
-  }
-  return at;
+  constexpr int kSteps = 16, kBisections = 16;
+  int voxel = tissue_voxel_at(volume, from);
+  double in = 0.0, out = 0.0;
+  const auto goes_to = [&](double part) {
+    const int next = tissue_voxel_at(volume, from + part * way);
+    const bool goes_on = voxel >= 0 && next >= 0 && are_joined(volume, voxel, next, true);
+    if (goes_on) voxel = next;
+    (goes_on ? in : out) = part;
+    return goes_on;
+  };
+  for (int i = 1; i <= kSteps && goes_to(static_cast<double>(i) / kSteps);) ++i;
+  for (int i = 0; i < kBisections && out > in; ++i) goes_to(0.5 * (in + out));
+  return from + in * way;
 }
 
 const Vec3& nearer_to(const Vec3& query, const Vec3& a, const Vec3& b) {
