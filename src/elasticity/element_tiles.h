@@ -75,7 +75,7 @@ class ElementTiles {
   std::vector<int> nodes;            ///< (|batches| × 8 × lanes)
 
  private:
-  static constexpr int kTile = 2048;             // elements, at most
+  static constexpr int kTile = 2048;            // elements, at most
   static constexpr int kEntries = 32 * kLanes;  // of a batch
 
   template <typename Scalar>

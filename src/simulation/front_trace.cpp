@@ -16,8 +16,8 @@ constexpr double kDentReach = 4.0, kCrowded = 0.25;
 constexpr double kStretch = 1.5;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// The part of a segment from a point in tissue on that is in the same tissue, tested in steps of 1/16: not in
-/// other tissue that only touches it.
+/// The part of a segment from a point in tissue on that is in the same tissue, tested in steps of 1/16: not
+/// in other tissue that only touches it.
 Vec3 go_in_tissue(const VoxelVolume& volume, const Vec3& from, const Vec3& way) {
   constexpr int kSteps = 16, kBisections = 16;
   int voxel = tissue_voxel_at(volume, from);
@@ -109,7 +109,10 @@ FrontTrace Simulation::State::front_trace() {
     interrupted = interrupted || !holds(p);
     if (!holds(p) || (last && p.along - last->along < kCrowded * contact_spacing())) continue;
     const bool holds_between = last && !interrupted && p.along - last->along < 3.0 * contact_spacing();
-    if (!last || !are_near(*last, p, contact_spacing()) || !(holds_between || in_tissue_between(*last, p))) {
+    const bool goes_on = last && pieces.piece_of_voxel[last->voxel] == pieces.piece_of_voxel[p.voxel] &&
+                         are_near(*last, p, contact_spacing()) &&
+                         (holds_between || in_tissue_between(*last, p));
+    if (!goes_on) {
       if (last) extend(*last, p.along, 1, trace.back());
       trace.emplace_back();
       extend(p, last ? last->along : -kFar, -1, trace.back());
