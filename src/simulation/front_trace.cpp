@@ -69,7 +69,8 @@ Polyline Simulation::State::follow_edge(const FrontEnd& end, const Vec3& dent) c
 
 /// The trace goes on from a contact point to where the edge ends or leaves the tissue: there the front, or
 /// the skin or cut's end that it has pushed in as far as at the contact point; and straight on as long as
-/// there are edge and tissue, which in motion may reach farther along the edge than at rest.
+/// there are edge and tissue, which in motion may reach farther along the edge than at rest. It does not go
+/// on where tissue is folded so that this leads back along the edge.
 /// @param until m, arc length at which another trace begins
 void Simulation::State::extend(const EdgeContactPoint& last, double until, int step, Trace& trace) const {
   const std::optional<FrontEnd> end = tracker.end_beyond(last.along, until, step, volume);
@@ -86,6 +87,7 @@ void Simulation::State::extend(const EdgeContactPoint& last, double until, int s
     const double reach = std::clamp(rest, 0.0, 2.0 * contact_spacing());
     X = go_in_tissue(volume, X, reach * tracker.material_tangent(last.along, step));
   }
+  if (step * (along_edge(X, last.voxel) - along_edge(last.X, last.voxel)) < 0.0) return;
   if ((X - last.X).norm() > 1e-6 * volume.lattice().spacing.minCoeff()) points.push_back(X);
   if (step < 0) std::reverse(points.begin(), points.end());
   trace.points.insert(trace.points.end(), points.begin(), points.end());
@@ -127,17 +129,22 @@ FrontTrace Simulation::State::front_trace() {
   return trace;
 }
 
+/// Arc length where the edge is beside tissue now, m.
+/// @param voxel that X follows if it is not in tissue
+double Simulation::State::along_edge(const Vec3& X, int voxel) const {
+  const int at_X = tissue_voxel_at(volume, X);
+  const Polyline& edge = tracker.front().points;
+  const Vec3 x = model.mesh().embed(at_X >= 0 ? at_X : voxel, X).apply(elastic.x);
+  const PolylineProjection at = project(edge, x);
+  double length = (at.point - edge[at.segment]).norm();
+  for (int i = 0; i < at.segment; ++i) length += (edge[i + 1] - edge[i]).norm();
+  return length;
+}
+
 /// Where the edge lies between contact points on the trace now.
 std::vector<EdgePart> Simulation::State::held_parts() const {
-  const Polyline& edge = tracker.front().points;
-  const auto along = [&](const MaterialPoint& p) {
-    const PolylineProjection at = project(edge, model.mesh().embed(p.voxel, p.X).apply(elastic.x));
-    double length = (at.point - edge[at.segment]).norm();
-    for (int i = 0; i < at.segment; ++i) length += (edge[i + 1] - edge[i]).norm();
-    return length;
-  };
   std::vector<EdgePart> parts;
-  for (const auto& [a, b] : held) parts.push_back({along(a), along(b)});
+  for (const auto& [a, b] : held) parts.push_back({along_edge(a.X, a.voxel), along_edge(b.X, b.voxel)});
   return parts;
 }
 
