@@ -43,6 +43,11 @@ bool are_near(const EdgeContactPoint& a, const EdgeContactPoint& b, double spaci
   return (b.X - a.X).norm() < 3.0 * std::max(b.along - a.along, spacing);
 }
 
+/// There is no tissue between them, but a cut that may gape.
+bool is_cut_between(const VoxelVolume& volume, const EdgeContactPoint& a, const EdgeContactPoint& b) {
+  return are_joined(volume, a.voxel, b.voxel, true) && !are_joined(volume, a.voxel, b.voxel);
+}
+
 }  // namespace
 
 /// The blade pushes at it; or it would if the tissue had come to rest, as after a fracture.
@@ -118,7 +123,7 @@ FrontTrace Simulation::State::front_trace() {
       if (last) extend(*last, p.along, 1, trace.back());
       trace.emplace_back();
       extend(p, last ? last->along : -kFar, -1, trace.back());
-    } else if (holds_between) {
+    } else if (holds_between && !is_cut_between(volume, *last, p)) {
       held.push_back({{last->X, last->voxel}, {p.X, p.voxel}});
     }
     trace.back().points.push_back(p.X);
