@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "cfem_cutting/geometry/errors.h"
+#include "cfem_cutting/volume/link_way.h"
 #include "cfem_cutting/volume/shapes.h"
 
 namespace cfem_cutting {
@@ -34,6 +35,17 @@ int sever_plane(VoxelVolume& volume, int layer) {
     severed += volume.sever({v, 0}, {volume.centre(v) + Vec3(0.001, 0.0, 0.0), Vec3(-2.0, 0.0, 0.0)});
   }
   return severed;
+}
+
+TEST(LinkWay, JoinsOverIntactLinksOnly) {
+  VoxelVolume volume = VoxelVolume::sample(*make_box({0.016, 0.016, 0.016}, Pose::Identity()), kSpacing);
+  const auto at = [&](int i, int j, int k) { return volume.find({i, j, k}); };
+  EXPECT_TRUE(are_joined(volume, at(1, 1, 1), at(2, 2, 2)));
+  EXPECT_FALSE(are_joined(volume, at(1, 1, 1), at(3, 3, 1)));  // four steps
+  sever_plane(volume, 1);
+  EXPECT_FALSE(are_joined(volume, at(1, 1, 1), at(2, 2, 1)));
+  EXPECT_TRUE(are_joined(volume, at(1, 1, 1), at(2, 2, 1), true));
+  EXPECT_TRUE(are_joined(volume, at(2, 1, 1), at(3, 2, 2)));
 }
 
 TEST(VoxelVolume, AlignedBoxIsExact) {
