@@ -7,13 +7,6 @@ namespace {
 
 constexpr double kSlowestSlip = 1.0e-3;  // m/s, below which friction is viscous
 
-/// Arc length from the polyline's first point to a projection.
-double arc_length(const Polyline& line, const PolylineProjection& at) {
-  double length = 0.0;
-  for (int i = 0; i < at.segment; ++i) length += (line[i + 1] - line[i]).norm();
-  return length + (at.point - line[at.segment]).norm();
-}
-
 /// How far a query lies beyond the polyline's nearer end, m; 0 between the ends.
 double beyond_ends(const Polyline& line, const PolylineProjection& at) {
   const double length = (line[at.segment + 1] - line[at.segment]).norm();

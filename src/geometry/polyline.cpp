@@ -48,6 +48,19 @@ PolylineProjection project(const Polyline& polyline, const Vec3& query) {
   return nearest;
 }
 
+std::vector<double> arc_lengths(const Polyline& polyline) {
+  std::vector<double> along(polyline.size(), 0.0);
+  for (std::size_t i = 1; i < along.size(); ++i)
+    along[i] = along[i - 1] + (polyline[i] - polyline[i - 1]).norm();
+  return along;
+}
+
+double arc_length(const Polyline& polyline, const PolylineProjection& at) {
+  double length = 0.0;
+  for (int i = 0; i < at.segment; ++i) length += (polyline[i + 1] - polyline[i]).norm();
+  return length + (at.point - polyline[at.segment]).norm();
+}
+
 Vec3 point_along(const Polyline& polyline, double along) {
   for (std::size_t i = 0; i + 1 < polyline.size(); ++i) {
     const Vec3 way = polyline[i + 1] - polyline[i];

@@ -140,10 +140,7 @@ double Simulation::State::along_edge(const Vec3& X, int voxel) const {
   const int at_X = tissue_voxel_at(volume, X);
   const Polyline& edge = tracker.front().points;
   const Vec3 x = model.mesh().embed(at_X >= 0 ? at_X : voxel, X).apply(elastic.x);
-  const PolylineProjection at = project(edge, x);
-  double length = (at.point - edge[at.segment]).norm();
-  for (int i = 0; i < at.segment; ++i) length += (edge[i + 1] - edge[i]).norm();
-  return length;
+  return arc_length(edge, project(edge, x));
 }
 
 /// Where the edge lies between contact points on the trace now.

@@ -42,7 +42,7 @@ FrontMotion FrontTracker::move(const Pose& X_TB, const VoxelVolume& volume, cons
 }
 
 std::vector<Touch> FrontTracker::inside() const {
-  const std::vector<double> along = arc_lengths();
+  const std::vector<double> along = arc_lengths(front_.points);
   std::vector<Touch> touches;
   for (std::size_t i = 0; i < material_.size(); ++i) {
     if (material_[i] && material_[i]->inside)
@@ -52,7 +52,7 @@ std::vector<Touch> FrontTracker::inside() const {
 }
 
 int FrontTracker::segment_at(double along) const {
-  const std::vector<double> at = arc_lengths();
+  const std::vector<double> at = arc_lengths(front_.points);
   const int next = static_cast<int>(std::upper_bound(at.begin(), at.end(), along) - at.begin());
   return std::clamp(next, 1, static_cast<int>(at.size()) - 1) - 1;
 }
@@ -60,7 +60,7 @@ int FrontTracker::segment_at(double along) const {
 std::optional<Vec3> FrontTracker::material_at(double along) const {
   const int i = segment_at(along);
   if (!material_[i] || !material_[i + 1]) return std::nullopt;
-  const std::vector<double> at = arc_lengths();
+  const std::vector<double> at = arc_lengths(front_.points);
   if (!(at[i + 1] > at[i])) return material_[i]->X;
   const double part = std::clamp((along - at[i]) / (at[i + 1] - at[i]), 0.0, 1.0);
   return material_[i]->X + part * (material_[i + 1]->X - material_[i]->X);
@@ -74,7 +74,7 @@ Vec3 FrontTracker::material_tangent(double along, int step) const {
 
 std::optional<FrontEnd> FrontTracker::end_beyond(double along, double until, int step,
                                                  const VoxelVolume& volume) const {
-  const std::vector<double> at = arc_lengths();
+  const std::vector<double> at = arc_lengths(front_.points);
   const int count = static_cast<int>(at.size());
   const auto inside = [&](int i) { return i >= 0 && i < count && material_[i] && material_[i]->inside; };
   const int before = segment_at(along), next = before + 1;
@@ -98,7 +98,7 @@ std::optional<FrontEnd> FrontTracker::end_beyond(double along, double until, int
 }
 
 double FrontTracker::length_beyond(double along, int step) const {
-  return step > 0 ? arc_lengths().back() - along : along;
+  return step > 0 ? arc_lengths(front_.points).back() - along : along;
 }
 
 std::vector<Polyline> FrontTracker::runs_inside() const {
@@ -111,13 +111,6 @@ std::vector<Polyline> FrontTracker::runs_inside() const {
     running = inside;
   }
   return runs;
-}
-
-std::vector<double> FrontTracker::arc_lengths() const {
-  std::vector<double> along(front_.points.size(), 0.0);
-  for (std::size_t i = 1; i < along.size(); ++i)
-    along[i] = along[i - 1] + (front_.points[i] - front_.points[i - 1]).norm();
-  return along;
 }
 
 MaterialFront FrontTracker::pull_back(const Front& front, const InverseMap& reference) const {

@@ -5,19 +5,13 @@
 namespace cfem_cutting {
 namespace {
 
-double length_of(const Polyline& points) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
-  return length;
-}
-
 /// Two traces may pass the same vertices: the longer one takes them.
 std::vector<const Trace*> longest_first(const FrontTrace& trace) {
   std::vector<const Trace*> sorted;
   sorted.reserve(trace.size());
   for (const Trace& part : trace) sorted.push_back(&part);
   std::stable_sort(sorted.begin(), sorted.end(), [](const Trace* a, const Trace* b) {
-    return length_of(a->points) > length_of(b->points);
+    return arc_lengths(a->points).back() > arc_lengths(b->points).back();
   });
   return sorted;
 }

@@ -134,10 +134,7 @@ class ChainFinder {
 
   static double along_in(const Polyline& points, const Vec3& X) {
     if (points.size() < 2) return 0.0;
-    const PolylineProjection at = project(points, X);
-    double along = (at.point - points[at.segment]).norm();
-    for (int i = 0; i < at.segment; ++i) along += (points[i + 1] - points[i]).norm();
-    return along;
+    return arc_length(points, project(points, X));
   }
 
   /// Edges and diagonals of the surface between nodes.

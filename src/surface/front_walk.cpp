@@ -63,8 +63,7 @@ void walk_segment(const Lattice& lattice, const Vec3& a, const Vec3& b, std::vec
 Vec3 project_between_ends(const FrontPiece& piece, const Vec3& query) {
   if (piece.points.size() == 1) return piece.points[0];
   const PolylineProjection nearest = project(piece.points, query);
-  double along = (nearest.point - piece.points[nearest.segment]).norm();
-  for (int i = 0; i < nearest.segment; ++i) along += (piece.points[i + 1] - piece.points[i]).norm();
+  const double along = arc_length(piece.points, nearest);
   const double margin = kEndMargin * piece.length;
   const double low = piece.first ? 0.0 : margin;
   const double high = piece.last ? piece.length : piece.length - margin;

@@ -37,6 +37,22 @@ TEST(Refine, KeepsGivenPointsAndTheLimit) {
   for (std::size_t i = 1; i < refined.size(); ++i) EXPECT_LE((refined[i] - refined[i - 1]).norm(), 0.3);
 }
 
+TEST(ArcLength, CountsFromTheFirstPoint) {
+  const Polyline bent{{0, 0, 0}, {3, 0, 0}, {3, 4, 0}};
+  EXPECT_EQ(arc_lengths(bent), (std::vector<double>{0.0, 3.0, 7.0}));
+  EXPECT_DOUBLE_EQ(arc_length(bent, project(bent, {1, -2, 0})), 1.0);
+  EXPECT_DOUBLE_EQ(arc_length(bent, project(bent, {5, 1, 1})), 4.0);
+  EXPECT_DOUBLE_EQ(arc_length(bent, project(bent, {9, 9, 0})), 7.0);
+}
+
+TEST(PointAlong, GoesRoundCornersAndStopsAtTheEnds) {
+  const Polyline bent{{0, 0, 0}, {3, 0, 0}, {3, 4, 0}};
+  EXPECT_LT((point_along(bent, 2.0) - Vec3(2, 0, 0)).norm(), 1e-15);
+  EXPECT_LT((point_along(bent, 4.5) - Vec3(3, 1.5, 0)).norm(), 1e-15);
+  EXPECT_LT((point_along(bent, 8.0) - Vec3(3, 4, 0)).norm(), 1e-15);
+  EXPECT_LT((point_along({{1, 2, 3}}, 0.5) - Vec3(1, 2, 3)).norm(), 1e-15);
+}
+
 TEST(Refine, LeavesSegmentsOfTheExactLength) {
   EXPECT_EQ(refine(kCorner, 1.0).size(), 4u);
   EXPECT_EQ(refine({{0, 0, 0}, {0.3, 0, 0}}, 0.1).size(), 4u);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "cfem_cutting/geometry/types.h"
 
 namespace cfem_cutting {
@@ -15,6 +17,12 @@ struct PolylineProjection {
 
 /// @pre polyline has at least two points, no two consecutive ones equal
 PolylineProjection project(const Polyline& polyline, const Vec3& query);
+
+/// Arc lengths from a polyline's first point to each, m.
+std::vector<double> arc_lengths(const Polyline& polyline);
+
+/// Arc length from a polyline's first point to a projection on it, m.
+double arc_length(const Polyline& polyline, const PolylineProjection& at);
 
 /// The point at a distance along a polyline of one or more points, m; its last point beyond its length.
 Vec3 point_along(const Polyline& polyline, double along);

@@ -77,7 +77,6 @@ class FrontTracker {
   std::vector<Polyline> runs_inside() const;
 
  private:
-  std::vector<double> arc_lengths() const;
   int segment_at(double along) const;
   MaterialFront pull_back(const Front& front, const InverseMap& reference) const;
 
