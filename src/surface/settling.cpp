@@ -72,15 +72,12 @@ void settle_midpoints(const Contour& contour, Mesher& mesher, const NearestOnCut
 
 bool draw_back(Contour& contour, int cell, int group, const NearestOnCut& nearest) {
   SheetGroup& of_sheets = contour.cells()[cell].groups[group];
-  const int most_times = of_sheets.adapted ? 1 : 3;
+  const int most_times = of_sheets.adapted ? 2 : 3;
   if (of_sheets.times_drawn_back == most_times) return false;
   const int times = ++of_sheets.times_drawn_back;
   const Vec3 in_cell = into_cell(contour, cell, of_sheets, nearest);
-  if (of_sheets.adapted || times == 2) {
-    of_sheets.drawn_back = in_cell;
-  } else {
-    of_sheets.drawn_back = times == 1 ? Vec3(0.5 * (of_sheets.X() + in_cell)) : of_sheets.minimum;
-  }
+  const Vec3 halfway = 0.5 * (of_sheets.X() + in_cell);
+  of_sheets.drawn_back = times == 1 ? halfway : times == 2 ? in_cell : of_sheets.minimum;
   return true;
 }
 
