@@ -119,12 +119,14 @@ CompositeMesh::CompositeMesh(const VoxelVolume& volume, int level)
   const Joints joints = voxel_joints(volume);
   const std::vector<Vec3i> block = assign_blocks(volume, *this, joints);
   const std::vector<int> root = components_in_blocks(joints, block);
-  for (const int v : sort_components(block, root)) {
+  const std::vector<int> roots = sort_components(block, root);
+  elements_.reserve(roots.size());
+  for (const int v : roots) {
     element_of_voxel_[v] = static_cast<int>(elements_.size());
     elements_.push_back({block[v], {}, {}});
   }
   for (int v = 0; v < static_cast<int>(root.size()); ++v) {
-    element_of_voxel_[v] = element_of_voxel_[root[v]];  // its root comes first
+    element_of_voxel_[v] = element_of_voxel_[root[v]];
     elements_[element_of_voxel_[v]].voxels.push_back(v);
   }
 

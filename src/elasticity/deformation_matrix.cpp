@@ -1,8 +1,11 @@
 #include "deformation_matrix.h"
 
+#include "element_kernel.h"
+
 namespace cfem_cutting {
 namespace {
 
+static_assert(DeformationMatrix::kModes * (DeformationMatrix::kModes + 1) / 2 == kDeformationTriangle);
 constexpr double kRounding = 1e-12;  // of the largest entry
 
 }  // namespace

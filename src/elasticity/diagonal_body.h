@@ -2,13 +2,13 @@
 
 /// An element's block of one node with itself, K row by row, of which only the symmetric half is used.
 static inline void node_block(MatrixForm form, const KERNEL_SCALAR* K, int lane, int n, Vector* block) {
-  const KERNEL_SCALAR* blocks = K + kLanes * (3 + kDeformationTriangle + 6 * n);  // of kDeformations
   for (int j = 0; j < 3; ++j) {
     const int column = 3 * n + j;
     for (int i = j; i < 3; ++i) {
-      const Vector value = form == MatrixForm::kWhole       ? K[24 * column + 3 * n + i] + Vector{}
-                           : form == MatrixForm::kTriangles ? load(entry(K + lane, 24, 3 * n + i, column))
-                                                            : load(entry(blocks + lane, 3, i, j));
+      const Vector value = form == MatrixForm::kWhole ? K[24 * column + 3 * n + i] + Vector{}
+                           : form == MatrixForm::kTriangles
+                               ? load(entry(K + lane, 24, 3 * n + i, column))
+                               : load(entry(K + lane + kLanes * (3 + kDeformationTriangle + 6 * n), 3, i, j));
       block[3 * i + j] = block[3 * j + i] = value;
     }
   }

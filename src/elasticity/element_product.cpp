@@ -1,7 +1,5 @@
 #include "element_product.h"
 
-#include <cmath>
-
 #include "node_loops.h"
 #include "rotation.h"
 
@@ -48,10 +46,17 @@ const std::vector<NodeBlock>& ElementProduct::diagonal() {
 
 bool ElementProduct::has_turned() const {
   if (diagonal_rotations_.size() != single_.rotations.size()) return true;
-  float largest = 0.0f;
-  for (std::size_t i = 0; i < diagonal_rotations_.size(); ++i)
-    largest = std::max(largest, std::abs(single_.rotations[i] - diagonal_rotations_[i]));
-  return largest > kDiagonalTurn / 4.0;  // see rodrigues_parameters
+  constexpr auto kFarthest = static_cast<float>(kDiagonalTurn * kDiagonalTurn / 16.0);  // of parameters
+  const float *now = single_.rotations.data(), *then = diagonal_rotations_.data();
+  for (std::size_t first = 0; first < diagonal_rotations_.size(); first += 3 * kLanes) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::size_t i = first + lane;
+      const float x = now[i] - then[i], y = now[i + kLanes] - then[i + kLanes],
+                  z = now[i + 2 * kLanes] - then[i + 2 * kLanes];
+      if (x * x + y * y + z * z > kFarthest) return true;
+    }
+  }
+  return false;
 }
 
 void ElementProduct::find_diagonal() {

@@ -52,7 +52,8 @@ class ElementProduct {
   void apply(const SingleField& p, SingleField& y) const;  ///< y = Σ R K Rᵀ p
 
   /// The nodes' 3 × 3 blocks of Σ R K Rᵀ, N/m, up to date within kDiagonalTurn: until an element has turned
-  /// by more, they are those of the last call.
+  /// by more, they are those of the last call. (So what a solve makes of them depends, within its tolerance,
+  /// on the solves before.)
   const std::vector<NodeBlock>& diagonal();
   static constexpr double kDiagonalTurn = 0.05;  ///< rad
 

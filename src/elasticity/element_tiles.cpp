@@ -42,17 +42,17 @@ void ElementTiles::add_batches(const std::vector<int>& elements, bool shared) {
 
 void ElementTiles::add_tile(const ElementSet& elements, int begin, int end) {
   const int first = size();
-  std::vector<int> others, held;  // batches have matrices of one form
+  std::vector<int> others, with_rigid_forces;  // batches have matrices of one form
   for (const std::vector<int>& group : group_by_matrix(elements, begin, end)) {
     if (static_cast<int>(group.size()) >= kFewestShared) {
       add_batches(group, true);
     } else {
-      std::vector<int>& own = elements.stiffness[group.front()]->deformations ? others : held;
+      std::vector<int>& own = elements.stiffness[group.front()]->deformations ? others : with_rigid_forces;
       own.insert(own.end(), group.begin(), group.end());
     }
   }
   add_batches(others, false);
-  add_batches(held, false);
+  add_batches(with_rigid_forces, false);
   tiles_.push_back({first, size()});
   nodes.resize(batches.size() * 8 * kLanes, 0);
   for (int b = first; b < size(); ++b)

@@ -27,7 +27,9 @@ class ElementTiles {
   ElementTiles(const ElementSet& elements, const NodeCorners& at);
 
   /// Elements of a tile, at most.
-  static int tile_size(int elements) { return std::clamp(elements / 8, 128, kTile); }
+  static int tile_size(int elements) {
+    return std::clamp(elements / 16, std::clamp(elements / 4, kTile / 16, kTile / 4), kTile);
+  }
 
   int size() const { return static_cast<int>(batches.size()); }
   const int* nodes_of(int batch) const { return nodes.data() + static_cast<std::size_t>(batch) * 8 * kLanes; }

@@ -13,13 +13,15 @@ constexpr double kNegligibleForce = 1e-6;  // of E h²
 constexpr double kLoosestSolve = 0.1;      // inner tolerance
 constexpr double kPartOfFirst = 1e-2;      // of the first residual: what residuals are relative to at least
 constexpr double kTightestSolve = 1e-13;
+constexpr double kGoodGain = 0.7;  // of the forces' size: steps that gain less tell nothing of the tangent
 
 /// Of a Newton step's solve: as loose as the last step was poor (Eisenstat and Walker 1996, choice 2), and no
 /// tighter than the whole needs.
-double inner_tolerance(double tolerance, double last_residual, double residual) {
-  const double gain = last_residual > 0.0 ? residual / last_residual : 1.0;
-  const double needed = 0.3 * tolerance / std::max(residual, 1e-300);
-  return std::clamp(std::max(0.9 * gain * gain, needed), kTightestSolve, kLoosestSolve);
+/// @param gain of the forces' size, the last step's; 1: there was none
+double inner_tolerance(double tolerance, double gain, double residual) {
+  constexpr double kForcing = 0.9, kLeft = 0.3;
+  const double needed = kLeft * tolerance / std::max(residual, 1e-300);
+  return std::clamp(std::max(kForcing * gain * gain, needed), kTightestSolve, kLoosestSolve);
 }
 
 }  // namespace
@@ -88,28 +90,37 @@ double Equilibrium::rounding(const NodeField& x) const {
 SolveReport Equilibrium::solve_newton(Multigrid& multigrid, ConjugateGradients& solver,
                                       const SolverOptions& options, NodeField& x, int max_newton) {
   SolveReport total;
-  double initial = 0.0, last_residual = 0.0;
+  double initial = 0.0;
   NodeField last_x, last_f;
   model_.respond(x, multigrid.pool(), elastic_);
   for (int newton = 0;; ++newton) {
     NodeField f = forces(elastic_, x);
     const double reference = std::max(load(f), kPartOfFirst * initial);
     clear_held(f);
-    bool held_in_place = true;
-    for (std::size_t i = 0; i < held_.nodes.size(); ++i)
-      held_in_place = held_in_place && x.col(held_.nodes[i]) == held_.positions[i];
-    initial = std::max(initial, f.norm());
-    if (last_x.cols() > 0) secants_.add(x - last_x, last_f - f);
+    const bool held_in_place = are_held(x);
+    const double size = f.norm();
+    initial = std::max(initial, size);
+    total.residual = size / reference;
+    total.inverted_elements = elastic_.inverted;
+    total.converged = held_in_place && (total.residual <= options.tolerance || size <= rounding(x));
+    if (total.converged || newton == max_newton) return total;
+    const double gain = newton > 0 ? size / last_f.norm() : 1.0;
+    if (last_x.cols() > 0 && gain < kGoodGain) {
+      secants_.add(x - last_x, last_f - f);
+    } else {
+      secants_.clear();
+    }
     last_x = held_in_place ? x : NodeField();
     last_f = f;
-    total.residual = f.norm() / reference;
-    total.inverted_elements = elastic_.inverted;
-    total.converged = held_in_place && (total.residual <= options.tolerance || f.norm() <= rounding(x));
-    if (total.converged || newton == max_newton) return total;
-    const double inner = inner_tolerance(options.tolerance, last_residual, total.residual);
-    last_residual = total.residual;
+    const double inner = inner_tolerance(options.tolerance, gain, total.residual);
     if (!newton_step(multigrid, solver, options, inner, f, x, total)) return total;
   }
+}
+
+bool Equilibrium::are_held(const NodeField& x) const {
+  for (std::size_t i = 0; i < held_.nodes.size(); ++i)
+    if (x.col(held_.nodes[i]) != held_.positions[i]) return false;
+  return true;
 }
 
 /// @return false if no step along the direction lowers the energy
@@ -118,24 +129,26 @@ bool Equilibrium::newton_step(Multigrid& multigrid, ConjugateGradients& solver, 
   const LinearSystem system(multigrid, model_, std::move(elastic_.rotations), {spring_, 1.0, &constraints_},
                             held_.nodes, precision_for(tolerance));
   const SolveGoal goal{tolerance, options.max_iterations, model_.mesh().block_size().mean()};
-  const auto solve = [&](const NodeField& load, NodeField dx) {
+  NodeField held_dx = NodeField::Zero(3, x.cols());
+  for (std::size_t i = 0; i < held_.nodes.size(); ++i)
+    held_dx.col(held_.nodes[i]) = held_.positions[i] - x.col(held_.nodes[i]);
+  const auto solve = [&](const NodeField& load) {
+    NodeField dx = held_dx;
     total.iterations += solver.solve(system, load, dx, goal).iterations;
     return dx;
   };
-  NodeField dx = NodeField::Zero(3, x.cols());
-  bool held_moves = false;
-  for (std::size_t i = 0; i < held_.nodes.size(); ++i) {
-    dx.col(held_.nodes[i]) = held_.positions[i] - x.col(held_.nodes[i]);
-    held_moves = held_moves || !dx.col(held_.nodes[i]).isZero(0.0);
+  ThreadPool& pool = multigrid.pool();
+  if (!are_held(x)) {
+    x += solve(f);
+    for (std::size_t i = 0; i < held_.nodes.size(); ++i) x.col(held_.nodes[i]) = held_.positions[i];
+    model_.respond(x, pool, elastic_);
+    return true;
   }
-  if (!held_moves) {
-    dx = secants_.direction(f, [&](const NodeField& load) { return solve(load, dx); });
-    return search_line(multigrid.pool(), dx, f, x);
-  }
-  x += solve(f, dx);
-  for (std::size_t i = 0; i < held_.nodes.size(); ++i) x.col(held_.nodes[i]) = held_.positions[i];
-  model_.respond(x, multigrid.pool(), elastic_);
-  return true;
+  if (search_line(pool, secants_.direction(f, solve), f, x)) return true;
+  if (secants_.empty()) return false;
+  secants_.clear();
+  model_.respond(x, pool, elastic_);
+  return search_line(pool, solve(f), f, x);
 }
 
 /// Backtracking to a sufficient decrease of the energy (Armijo 1966), up to its rounding.

@@ -29,6 +29,7 @@ class Equilibrium {
   bool search_line(ThreadPool& pool, const NodeField& dx, const NodeField& forces, NodeField& x);
   void find_floating_nodes();
   void clear_held(NodeField& field) const;
+  bool are_held(const NodeField& x) const;
 
   const ElasticModel& model_;
   NodeField start_;

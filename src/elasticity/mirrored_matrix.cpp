@@ -10,6 +10,7 @@ constexpr double kRounding = 1e-13;  // of the largest entry
 std::optional<MirroredMatrix> mirrored(const ElementMatrix& K) {
   ElementMatrix left = to_modes(K);
   const double rounding = kRounding * left.cwiseAbs().maxCoeff();
+  if (left.leftCols<3>().cwiseAbs().maxCoeff() > rounding) return std::nullopt;
   MirroredMatrix blocks;
   for (int p = 0; p < 8; ++p) {
     for (int i = 0; i < 3; ++i) {

@@ -10,9 +10,9 @@ double dot(const NodeField& a, const NodeField& b) { return a.cwiseProduct(b).su
 }  // namespace
 
 void SecantPairs::add(NodeField step, NodeField drop) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kLeastCosine = 1e-8;  // less has no stable system
   const double work = dot(step, drop);
-  if (!(work > kRounding * step.norm() * drop.norm())) return;
+  if (!(work > kLeastCosine * step.norm() * drop.norm())) return;
   pairs_.push_front({std::move(step), std::move(drop), work});
   if (pairs_.size() > kMostPairs) pairs_.pop_back();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <vector>
 
 #include "cfem_cutting/elasticity/composite_mesh.h"
 
@@ -17,6 +18,7 @@ class SecantPairs {
   void add(NodeField step, NodeField drop);
 
   void clear() { pairs_.clear(); }
+  bool empty() const { return pairs_.empty(); }
 
   /// Where forces push to, m.
   /// @param solve takes a load, N, to a displacement, m, by the tangent at hand

@@ -13,7 +13,8 @@ void join_hosted(const VoxelVolume& volume, int v, std::vector<std::pair<int, in
     if (other < 0 || other == voxel.host) continue;
     const bool counted_there = !volume.voxel(other).linked() && other < v;
     const int other_host = volume.voxel(other).linked() ? other : volume.voxel(other).host;
-    if (!counted_there && are_joined(volume, voxel.host, other_host)) joints.emplace_back(v, other);
+    if (!counted_there && are_joined(volume, voxel.host, other_host, LinkKind::kIntact))
+      joints.emplace_back(v, other);
   }
 }
 

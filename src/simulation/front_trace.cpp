@@ -1,6 +1,7 @@
 // The material curve on which the surface meets the blade's edge.
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "cfem_cutting/volume/link_way.h"
@@ -16,23 +17,41 @@ constexpr double kDentReach = 4.0, kCrowded = 0.25;
 constexpr double kStretch = 1.5;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// The part of a segment from a point in tissue on that is in the same tissue, tested in steps of 1/16: not
-/// in other tissue that only touches it.
-Vec3 go_in_tissue(const VoxelVolume& volume, const Vec3& from, const Vec3& way) {
-  constexpr int kSteps = 16, kBisections = 16;
-  int voxel = tissue_voxel_at(volume, from);
-  double in = 0.0, out = 0.0;
-  const auto goes_to = [&](double part) {
-    const int next = tissue_voxel_at(volume, from + part * way);
-    const bool goes_on = voxel >= 0 && next >= 0 && are_joined(volume, voxel, next, true);
-    if (goes_on) voxel = next;
-    (goes_on ? in : out) = part;
-    return goes_on;
-  };
-  for (int i = 1; i <= kSteps && goes_to(static_cast<double>(i) / kSteps);) ++i;
-  for (int i = 0; i < kBisections && out > in; ++i) goes_to(0.5 * (in + out));
-  return from + in * way;
-}
+/// A walk from a material point on, over links, severed ones too: not into other tissue that only touches.
+class Walk {
+ public:
+  Walk(const VoxelVolume& volume, const Vec3& from, int voxel) : volume_(volume), at_(from), voxel_(voxel) {}
+
+  /// Goes straight on, in steps of a sixteenth or a voxel, until tissue ends (found by bisection).
+  Vec3 along(const Vec3& way) {
+    const double voxels = way.cwiseQuotient(volume_.lattice().spacing).cwiseAbs().sum();
+    const int steps = std::max(16, static_cast<int>(std::ceil(voxels)));
+    for (int i = 0; i < steps; ++i) {
+      if (step(way / steps)) continue;
+      bisect(way / steps);
+      break;
+    }
+    return at_;
+  }
+
+ private:
+  bool step(const Vec3& way) {
+    const int next = tissue_voxel_at(volume_, at_ + way);
+    if (next < 0 || !are_joined(volume_, voxel_, next, LinkKind::kAny)) return false;
+    at_ += way;
+    voxel_ = next;
+    return true;
+  }
+
+  void bisect(Vec3 way) {
+    constexpr int kBisections = 16;
+    for (int i = 0; i < kBisections; ++i) step(way *= 0.5);
+  }
+
+  const VoxelVolume& volume_;
+  Vec3 at_;
+  int voxel_;
+};
 
 const Vec3& nearer_to(const Vec3& query, const Vec3& a, const Vec3& b) {
   return (a - query).norm() <= (b - query).norm() ? a : b;
@@ -45,7 +64,8 @@ bool are_near(const EdgeContactPoint& a, const EdgeContactPoint& b, double spaci
 
 /// There is no tissue between them, but a cut that may gape.
 bool is_cut_between(const VoxelVolume& volume, const EdgeContactPoint& a, const EdgeContactPoint& b) {
-  return are_joined(volume, a.voxel, b.voxel, true) && !are_joined(volume, a.voxel, b.voxel);
+  return are_joined(volume, a.voxel, b.voxel, LinkKind::kAny) &&
+         !are_joined(volume, a.voxel, b.voxel, LinkKind::kIntact);
 }
 
 }  // namespace
@@ -84,18 +104,34 @@ void Simulation::State::extend(const EdgeContactPoint& last, double until, int s
   if (end) {
     const Vec3 beyond = end->X - end->X_at_start, dent = last.X - end->X_at_start;
     points = follow_edge(*end, dent);
-    X = nearer_to(last.X + beyond, go_in_tissue(volume, last.X, beyond), go_in_tissue(volume, end->X, dent));
+    X = Walk(volume, last.X, last.voxel).along(beyond);
+    const int voxel = tissue_voxel_at(volume, end->X);
+    if (voxel >= 0 && is_same_piece(voxel, last.voxel))
+      X = nearer_to(last.X + beyond, X, Walk(volume, end->X, voxel).along(dent));
   }
-  (step > 0 ? trace.tip : trace.heel) = end && end->edge_ends;
   if ((!end || (!end->edge_ends && !end->goes_on)) && tissue_voxel_at(volume, X) >= 0) {
     const double rest = kStretch * tracker.length_beyond(last.along, step) - (X - last.X).norm();
     const double reach = std::clamp(rest, 0.0, 2.0 * contact_spacing());
-    X = go_in_tissue(volume, X, reach * tracker.material_tangent(last.along, step));
+    const int voxel = tissue_voxel_at(volume, X);
+    X = Walk(volume, X, voxel).along(reach * tracker.material_tangent(last.along, step));
   }
-  if (step * (along_edge(X, last.voxel) - along_edge(last.X, last.voxel)) < 0.0) return;
+  if (leads_back(last, X, step)) return;
+  (step > 0 ? trace.tip : trace.heel) = end && end->edge_ends;
   if ((X - last.X).norm() > 1e-6 * volume.lattice().spacing.minCoeff()) points.push_back(X);
   if (step < 0) std::reverse(points.begin(), points.end());
   trace.points.insert(trace.points.end(), points.begin(), points.end());
+}
+
+bool Simulation::State::is_same_piece(int voxel, int other) const {
+  return pieces.piece_of_voxel[voxel] == pieces.piece_of_voxel[other];
+}
+
+/// Whether the way from a contact point to X goes back along the edge, as the tissue is now.
+bool Simulation::State::leads_back(const EdgeContactPoint& from, const Vec3& X, int step) const {
+  const int voxel = tissue_voxel_at(volume, X);
+  const double way = along_edge(X, voxel >= 0 ? voxel : from.voxel) - along_edge(from.X, from.voxel);
+  constexpr double kSquare = 0.01;  // of contact points' spacing: less is square to the edge
+  return step * way < -kSquare * contact_spacing();
 }
 
 bool Simulation::State::in_tissue_between(const EdgeContactPoint& a, const EdgeContactPoint& b) const {
@@ -116,7 +152,7 @@ FrontTrace Simulation::State::front_trace() {
     interrupted = interrupted || !holds(p);
     if (!holds(p) || (last && p.along - last->along < kCrowded * contact_spacing())) continue;
     const bool holds_between = last && !interrupted && p.along - last->along < 3.0 * contact_spacing();
-    const bool goes_on = last && pieces.piece_of_voxel[last->voxel] == pieces.piece_of_voxel[p.voxel] &&
+    const bool goes_on = last && is_same_piece(last->voxel, p.voxel) &&
                          are_near(*last, p, contact_spacing()) &&
                          (holds_between || in_tissue_between(*last, p));
     if (!goes_on) {
@@ -134,13 +170,10 @@ FrontTrace Simulation::State::front_trace() {
   return trace;
 }
 
-/// Arc length where the edge is beside tissue now, m.
-/// @param voxel that X follows if it is not in tissue
+/// Arc length at the place of the edge that is nearest to tissue now, m.
 double Simulation::State::along_edge(const Vec3& X, int voxel) const {
-  const int at_X = tissue_voxel_at(volume, X);
   const Polyline& edge = tracker.front().points;
-  const Vec3 x = model.mesh().embed(at_X >= 0 ? at_X : voxel, X).apply(elastic.x);
-  return arc_length(edge, project(edge, x));
+  return arc_length(edge, project(edge, model.mesh().embed(voxel, X).apply(elastic.x)));
 }
 
 /// Where the edge lies between contact points on the trace now.

@@ -58,6 +58,8 @@ struct Simulation::State {
   Polyline follow_edge(const FrontEnd& end, const Vec3& dent) const;
   bool in_tissue_between(const EdgeContactPoint& a, const EdgeContactPoint& b) const;
   void extend(const EdgeContactPoint& last, double until, int step, Trace& trace) const;
+  bool is_same_piece(int voxel, int other) const;
+  bool leads_back(const EdgeContactPoint& from, const Vec3& X, int step) const;
   double along_edge(const Vec3& X, int voxel) const;
   std::vector<EdgePart> held_parts() const;
   double dent_radius() const { return 0.75 * contact_spacing(); }  ///< m, half the widest gap

@@ -5,14 +5,15 @@
 namespace cfem_cutting {
 namespace {
 
+double length_of(const Trace& trace) { return trace.points.empty() ? 0.0 : arc_lengths(trace.points).back(); }
+
 /// Two traces may pass the same vertices: the longer one takes them.
 std::vector<const Trace*> longest_first(const FrontTrace& trace) {
   std::vector<const Trace*> sorted;
   sorted.reserve(trace.size());
   for (const Trace& part : trace) sorted.push_back(&part);
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Trace* a, const Trace* b) {
-    return arc_lengths(a->points).back() > arc_lengths(b->points).back();
-  });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Trace* a, const Trace* b) { return length_of(*a) > length_of(*b); });
   return sorted;
 }
 

@@ -179,9 +179,9 @@ bool Mesher::move(const Contour& contour, int v) {
   const SheetGroup& group = contour.cells()[anchors_[v].cell].groups[anchors_[v].group];
   vertex.cut_end = group.cut_end;
   adapted_[v] = group.adapted || group.frozen;
+  vertex.voxel = voxel_of(contour, anchors_[v]);
   if (chain_[v] == group.chain && vertex.edge_end == group.edge_end && vertex.X == group.X()) return false;
   vertex.X = group.X();
-  vertex.voxel = voxel_of(contour, anchors_[v]);
   vertex.on_front = group.chain >= 0;
   vertex.edge_end = group.edge_end;
   chain_[v] = group.chain;

@@ -2,7 +2,7 @@
 
 namespace cfem_cutting {
 
-bool are_joined(const VoxelVolume& volume, int v, int w, bool over_cuts) {
+bool are_joined(const VoxelVolume& volume, int v, int w, LinkKind kind) {
   if (v == w) return true;
   constexpr int kMostSteps = 3;
   const Vec3i way = volume.voxel(w).index - volume.voxel(v).index;
@@ -11,8 +11,8 @@ bool are_joined(const VoxelVolume& volume, int v, int w, bool over_cuts) {
     if (way[axis] == 0) continue;
     const int direction = 2 * axis + (way[axis] > 0 ? 1 : 0);
     const LinkState link = volume.voxel(v).link[direction];
-    const bool passes = link == LinkState::kIntact || (over_cuts && link == LinkState::kSevered);
-    if (passes && are_joined(volume, volume.voxel(v).neighbour[direction], w, over_cuts)) return true;
+    const bool passes = link == LinkState::kIntact || (kind == LinkKind::kAny && link == LinkState::kSevered);
+    if (passes && are_joined(volume, volume.voxel(v).neighbour[direction], w, kind)) return true;
   }
   return false;
 }

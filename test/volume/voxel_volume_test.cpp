@@ -40,12 +40,12 @@ int sever_plane(VoxelVolume& volume, int layer) {
 TEST(LinkWay, JoinsOverIntactLinksOnly) {
   VoxelVolume volume = VoxelVolume::sample(*make_box({0.016, 0.016, 0.016}, Pose::Identity()), kSpacing);
   const auto at = [&](int i, int j, int k) { return volume.find({i, j, k}); };
-  EXPECT_TRUE(are_joined(volume, at(1, 1, 1), at(2, 2, 2)));
-  EXPECT_FALSE(are_joined(volume, at(1, 1, 1), at(3, 3, 1)));  // four steps
+  EXPECT_TRUE(are_joined(volume, at(1, 1, 1), at(2, 2, 2), LinkKind::kIntact));
+  EXPECT_FALSE(are_joined(volume, at(1, 1, 1), at(3, 3, 1), LinkKind::kIntact));  // four steps
   sever_plane(volume, 1);
-  EXPECT_FALSE(are_joined(volume, at(1, 1, 1), at(2, 2, 1)));
-  EXPECT_TRUE(are_joined(volume, at(1, 1, 1), at(2, 2, 1), true));
-  EXPECT_TRUE(are_joined(volume, at(2, 1, 1), at(3, 2, 2)));
+  EXPECT_FALSE(are_joined(volume, at(1, 1, 1), at(2, 2, 1), LinkKind::kIntact));
+  EXPECT_TRUE(are_joined(volume, at(1, 1, 1), at(2, 2, 1), LinkKind::kAny));
+  EXPECT_TRUE(are_joined(volume, at(2, 1, 1), at(3, 2, 2), LinkKind::kIntact));
 }
 
 TEST(VoxelVolume, AlignedBoxIsExact) {

@@ -65,7 +65,7 @@ class Integrator {
   /// Moves x to static equilibrium by Newton's method with line search on the energy. Pieces that nothing
   /// holds stay where they are (`floating` nodes feel no gravity and a weak spring to where they started).
   SolveReport equilibrate(const ElasticModel& model, NodeField& x, const Vec3& gravity, const HeldNodes& held,
-                          const std::vector<PointConstraint>& constraints, int max_newton = 20);
+                          const std::vector<PointConstraint>& constraints, int max_newton = 60);
 
  private:
   struct Workspace;

@@ -4,8 +4,13 @@
 
 namespace cfem_cutting {
 
+enum class LinkKind {
+  kIntact,
+  kAny  ///< severed ones, too
+};
+
 /// Whether one of the shortest ways over the lattice between two linked voxels, of three steps at most, goes
-/// over intact links; or over severed ones, too.
-bool are_joined(const VoxelVolume& volume, int v, int w, bool over_cuts = false);
+/// over links of a kind.
+bool are_joined(const VoxelVolume& volume, int v, int w, LinkKind kind);
 
 }  // namespace cfem_cutting
