@@ -1,6 +1,7 @@
 #include "coarsening.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "node_numbering.h"
@@ -169,6 +170,7 @@ Prolongation::Prolongation(const Interpolation& interpolation) {
       for (int i = begin; i < end; ++i) {
         const Interpolation::Row row = interpolation.row(i);
         if (row.last - row.first != 1 << halvings) continue;
+        assert(static_cast<int>(row.first->halvings) == halvings);
         rows_.push_back(i);
         for (const Interpolation::Term& term : row) terms_.push_back(static_cast<int>(term.node));
       }

@@ -162,6 +162,8 @@ TEST(Kernels, DiagonalBlocksTurnWithTheirElement) {
 TEST(Kernels, AMatrixThatIsNotMirroredIsNotTakenForOne) {
   EXPECT_TRUE(mirrored(make_matrix(MatrixForm::kMirrored)).has_value());
   EXPECT_FALSE(mirrored(make_matrix(MatrixForm::kWhole)).has_value());
+  const ElementMatrix on_springs = make_matrix(MatrixForm::kMirrored) + ElementMatrix::Identity();
+  EXPECT_FALSE(mirrored(on_springs).has_value());  // translations have forces
 }
 
 TEST(Kernels, AMatrixWithForcesAgainstRigidMotionsIsNotTakenForOneWithout) {
@@ -174,8 +176,9 @@ TEST(Kernels, AMatrixWithForcesAgainstRigidMotionsIsNotTakenForOneWithout) {
   }
 }
 
-TEST(Kernels, CorotationAnswersAlike) {
-  const Specimen<double> specimen(MatrixForm::kTriangles);
+/// Answers of all instruction sets are the first one's, and energies ½ uᵀ K u by the whole matrix.
+void expect_like_answers(MatrixForm form) {
+  const Specimen<double> specimen(form);
   const double size[3] = {0.9, 1.0, 1.1};
   double x[3 * 8 * kLanes], gradient[24 * kLanes];
   int nodes[8 * kLanes];
@@ -194,16 +197,30 @@ TEST(Kernels, CorotationAnswersAlike) {
   for (const CorotationKernel& kernel : corotation_kernels()) {
     alignas(64) double forces[32 * kLanes] = {}, rotations[9 * kLanes], energy[kLanes];
     bool regular[kLanes];
-    kernel.respond({x, nodes, gradient, size, MatrixForm::kTriangles, specimen.stiffness, forces, rotations,
-                    energy, regular});
+    kernel.respond({x, nodes, gradient, size, form, specimen.stiffness, forces, rotations, energy, regular});
     Eigen::VectorXd answer(42 * kLanes);
     answer << Eigen::Map<Eigen::VectorXd>(forces, 32 * kLanes),
         Eigen::Map<Eigen::VectorXd>(rotations, 9 * kLanes), Eigen::Map<Eigen::VectorXd>(energy, kLanes);
     answers.push_back(answer);
     for (bool is_regular : regular) EXPECT_TRUE(is_regular);
-    for (int lane = 0; lane < kLanes; ++lane) EXPECT_GT(energy[lane], 0.0);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      Mat3 R;
+      for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = rotations[i * kLanes + lane];
+      Eigen::Matrix<double, 24, 1> u;
+      for (int n = 0; n < 8; ++n)
+        u.segment<3>(3 * n) =
+            R.transpose() * (Vec3::Map(x + 3 * (8 * lane + n)) - Vec3::Map(x + 3 * 8 * lane)) -
+            corner_bits(n).cast<double>().cwiseProduct(Vec3::Map(size));
+      const double expected = 0.5 * u.dot(specimen.matrices[lane] * u);
+      EXPECT_GT(expected, 0.0);
+      EXPECT_NEAR(energy[lane], expected, 1e-11 * expected);
+    }
     EXPECT_LT((answer - answers.front()).norm(), 1e-12 * answers.front().norm()) << kernel.name;
   }
+}
+
+TEST(Kernels, CorotationAnswersAlikeByEveryFormOfMatrix) {
+  for (MatrixForm form : kForms) expect_like_answers(form);
 }
 
 }  // namespace

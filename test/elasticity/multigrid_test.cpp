@@ -100,6 +100,41 @@ TEST_F(Cycle, InterpolationKeepsRigidTranslations) {
   EXPECT_LT((fine.array() - 1.0f).abs().maxCoeff(), 1e-6f);
 }
 
+TEST_F(Cycle, ProlongationAddsWhatInterpolationMakes) {
+  const Coarsening coarsening(*model.elements());
+  const SingleField coarse = SingleField::Random(4, coarsening.coarse.node_count);
+  SingleField fine;
+  coarsening.interpolation.apply(pool, coarse, fine);
+  SingleField sum = SingleField::Ones(4, count);
+  Prolongation(coarsening.interpolation).add(pool, coarse, sum);
+  EXPECT_LT((sum - fine - SingleField::Ones(4, count)).array().abs().maxCoeff(), 1e-5f);
+}
+
+/// The largest change of the nodes' blocks, over their largest entry, when all elements turn.
+float change_of_diagonal(const ElasticModel& model, ThreadPool& pool, const Vec3& axis, double angle) {
+  ElementProduct product(pool);
+  product.arrange(model.elements());
+  const std::vector<NodeBlock> before = product.diagonal();
+  const Mat3 R = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+  product.rotate(std::vector<Mat3>(model.elements()->set.size(), R));
+  const std::vector<NodeBlock>& after = product.diagonal();
+  float largest = 0.0f, change = 0.0f;
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    for (int i = 0; i < 6; ++i) {
+      largest = std::max(largest, std::abs(before[n].entries[i]));
+      change = std::max(change, std::abs(after[n].entries[i] - before[n].entries[i]));
+    }
+  }
+  return change / largest;
+}
+
+TEST_F(Cycle, NodeBlocksStayUntilElementsHaveTurned) {
+  for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, 1, 0), Vec3(1, 1, 1)}) {
+    EXPECT_EQ(change_of_diagonal(model, pool, axis, 0.9 * ElementProduct::kDiagonalTurn), 0.0f);
+    EXPECT_GT(change_of_diagonal(model, pool, axis, 1.1 * ElementProduct::kDiagonalTurn), 1e-3f);
+  }
+}
+
 TEST_F(Cycle, FollowsTheModel) {
   SingleField before, after;
   const SingleField r = random(1);

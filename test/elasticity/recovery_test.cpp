@@ -52,5 +52,24 @@ TEST(Recovery, FromTwoHundredRuinedStates) {
   }
 }
 
+TEST(Recovery, OfEquilibriaFromSixtyRuinedStates) {
+  const double edge = 0.01;
+  const ElasticModel model(box_volume({0.04, 0.03, 0.03}, edge), 0, {kGelatine},
+                           ElementKind::kIncompatibleModes, Kinematics::kCorotational);
+  const HeldNodes held = hold_where(model.mesh(), [](const Vec3& X) { return X.z() <= 1e-9; });
+  SolverOptions options;
+  options.threads = 1;
+  options.tolerance = 1e-3;
+  Integrator integrator(options);
+  NodeField expected = model.mesh().rest();
+  ASSERT_TRUE(integrator.equilibrate(model, expected, {0, 0, -9.81}, held, {}).converged);
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    NodeField x = ruin(model.mesh().rest(), 0.5 * edge, seed);
+    for (std::size_t i = 0; i < held.nodes.size(); ++i) x.col(held.nodes[i]) = held.positions[i];
+    ASSERT_GT(model.respond(x).inverted, 0);
+    EXPECT_TRUE(integrator.equilibrate(model, x, {0, 0, -9.81}, held, {}).converged) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace cfem_cutting
