@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "cfem_cutting/elasticity/integrator.h"
-#include "coarsening.h"
 #include "galerkin.h"
 #include "largest_eigenvalue.h"
 #include "level_system.h"
+#include "prolongation.h"
 
 namespace cfem_cutting {
 
