@@ -345,16 +345,19 @@ class Signals(ReplayTest):
             self.assertFalse(os.path.exists(self.path(out + ".partial")))
 
     def test_ignored_signal_stays_ignored(self):
-        run = subprocess.Popen([REPLAY, "--config", BOX, "--out", self.path("out"), "--duration", "2"],
+        run = subprocess.Popen([REPLAY, "--config", BOX, "--out", self.path("out"), "--duration", "1000000"],
                                stderr=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
-        self.wait_for_text(os.path.join(self.path("out.partial"), "steps.csv"))
+        steps = os.path.join(self.path("out.partial"), "steps.csv")
+        self.wait_for_text(steps)
         run.send_signal(signal.SIGINT)
+        self.wait_for_text(steps, more_than=2 * os.path.getsize(steps))  # goes on
+        run.send_signal(signal.SIGTERM)
         run.communicate(timeout=60)
-        self.assertEqual(run.returncode, 0)
+        self.assertEqual(run.returncode, 128 + signal.SIGTERM)
 
-    def wait_for_text(self, path):
+    def wait_for_text(self, path, more_than=0):
         end = time.monotonic() + 60
-        while not (os.path.exists(path) and os.path.getsize(path)):
+        while not (os.path.exists(path) and os.path.getsize(path) > more_than):
             self.assertLess(time.monotonic(), end)
             time.sleep(0.05)
 
