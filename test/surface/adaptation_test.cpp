@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 
 #include "cfem_cutting/geometry/polyline.h"
 #include "cfem_cutting/volume/inside.h"
@@ -271,6 +272,45 @@ TEST(Deform, draws_the_neighbourhood_of_a_held_cut_end_along) {
     along += part > 0.1 && !surface.vertices[v].on_front;
   }
   EXPECT_GT(along, 10);
+}
+
+/// A tilted cut halfway into a box, whose rim and end are settled on it.
+struct SettledCut {
+  VoxelVolume volume = box_volume({8, 8, 6});
+  Plane plane{{4.1, 4.0, 3.0}, Vec3(1.0, 0.22, 0.13).normalized()};
+  std::optional<Vec3> nearest(const Vec3& X) const {
+    const Vec3 at = X - plane.height(X) * plane.normal;
+    return (at - X).norm() <= 1.0 && at.z() >= 2.4 ? std::optional<Vec3>(at) : std::nullopt;
+  }
+  Vec3 on_plane(double y, double z) const {
+    const Vec3 X(4.0, y, z);
+    return X - plane.height(X) / plane.normal.x() * Vec3::UnitX();
+  }
+  std::unique_ptr<SurfaceExtractor> extract() {
+    auto extractor = std::make_unique<SurfaceExtractor>(volume, [this](const Vec3& X) { return nearest(X); });
+    extractor->extract({});
+    sever(volume, plane, [](const Vec3& X) { return X.z() > 2.5; });
+    extractor->freeze();
+    extractor->extract({line(on_plane(0.0, 2.4), on_plane(8.0, 2.4))});
+    return extractor;
+  }
+};
+
+/// What a trace has moved, also beside itself, goes back when it is gone: as if all cells were looked at.
+TEST(Traces, LeaveNothingBehind) {
+  SettledCut cut, same;
+  const std::unique_ptr<SurfaceExtractor> visited = cut.extract(), other = same.extract();
+  std::srand(3);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 from = Vec3(4.0, 4.0, 3.5) + 2.0 * Vec3::Random(),
+               to = Vec3(4.0, 4.0, 3.5) + 4.0 * Vec3::Random();
+    visited->extract({line(from, to)});
+    const std::vector<Vec3> there = visited->surface().rest().vertices;
+    visited->extract({});
+    EXPECT_EQ(visited->surface().rest().vertices, other->extract({}).rest().vertices) << "trace " << i;
+    visited->extract({line(from, to)});
+    EXPECT_EQ(visited->surface().rest().vertices, there) << "trace " << i;
+  }
 }
 
 }  // namespace
