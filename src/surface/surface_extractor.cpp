@@ -26,6 +26,7 @@ namespace {
 
 /// Vertices at the ends of a trace, on detours and on the cut leave their cells; where that turns a triangle,
 /// they go back, those on the trace last.
+/// @param cells whose vertices may have moved; those with vertices that go back are added
 void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnCut& on_cut,
             std::vector<int>& cells) {
   constexpr int kTries = 20;
