@@ -17,7 +17,7 @@ constexpr double kRounding = 1e-15;
 constexpr double kMostReduction = 1e-5;
 
 double norm(ThreadPool& pool, const NodeField& field) {
-  return std::sqrt(sum_over_nodes(pool, field.cols(), [&](int n) { return field.col(n).squaredNorm(); }));
+  return std::sqrt(dot(pool, field, field));
 }
 
 void set_zero(ThreadPool& pool, Eigen::Index count, SingleField& field) {
@@ -54,33 +54,33 @@ ConjugateGradients::Outcome ConjugateGradients::reduce(const LinearSystem& syste
                                                        int max_iterations) {
   const Multigrid& multigrid = system.multigrid();
   const int count = static_cast<int>(r_.cols());
-  const auto sum = [&](const auto& term) { return sum_over_nodes(multigrid.pool(), count, term); };
+  ThreadPool& pool = multigrid.pool();
   double rz = 1.0;
-  double size = std::sqrt(sum([&](int n) { return r_.col(n).squaredNorm(); }));
+  double size = std::sqrt(dot(pool, r_, r_));
   Outcome outcome;
   int& iteration = outcome.iterations;
-  set_zero(multigrid.pool(), count, p_);
+  set_zero(pool, count, p_);
   for (; iteration < max_iterations && size > goal; ++iteration) {
     if (preconditioner == Preconditioner::kNodeBlocks) {
       multigrid.finest().scale(r_, z_);
     } else {
       multigrid.precondition(r_, z_);
     }
-    const double next_rz = sum([&](int n) { return r_.col(n).dot(z_.col(n)); });
+    const double next_rz = dot(pool, r_, z_);
     outcome.broke_down = !(next_rz > 0.0);
     if (outcome.broke_down) break;
     const auto keep = static_cast<float>(iteration > 0 ? next_rz / rz : 0.0);
     rz = next_rz;
-    for_each_node(multigrid.pool(), count, [&](int n) { p_.col(n) = z_.col(n) + keep * p_.col(n); });
+    for_each_node(pool, count, [&](int n) { p_.col(n) = z_.col(n) + keep * p_.col(n); });
     multigrid.finest().apply(p_, Ap_);
     system.clear_held(Ap_);
-    const double curvature = sum([&](int n) { return p_.col(n).dot(Ap_.col(n)); });
+    const double curvature = dot(pool, p_, Ap_);
     if (!(curvature > 0.0)) break;
     const auto length = static_cast<float>(rz / curvature);
-    size = std::sqrt(sum([&](int n) {  // takes the step, too
+    size = std::sqrt(sum_over_nodes(pool, count, [&](int n) {  // takes the step, too
       x_.col(n) += length * p_.col(n);
       r_.col(n) -= length * Ap_.col(n);
-      return r_.col(n).squaredNorm();
+      return r_.col(n).cwiseAbs2();
     }));
   }
   return outcome;

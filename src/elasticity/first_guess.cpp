@@ -8,10 +8,6 @@ namespace {
 /// Of a direction's energy: less is left of it only by rounding.
 constexpr double kRounding = 1e-6;
 
-double dot(ThreadPool& pool, const SingleField& a, const SingleField& b) {
-  return sum_over_nodes(pool, a.cols(), [&](int n) { return a.col(n).dot(b.col(n)); });
-}
-
 void subtract(ThreadPool& pool, double factor, const SingleField& b, SingleField& a) {
   const auto f = static_cast<float>(factor);
   for_each_node(pool, a.cols(), [&](int n) { a.col(n) -= f * b.col(n); });
