@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "node_numbering.h"
 #include "shared_face.h"
@@ -123,6 +124,14 @@ Coarsening::Coarsening(const TiledElements& elements) {
   for (int e = 0; e < fine.size(); ++e) coarse.block[parent[e]] = halved(fine.block[e]);
   unite_nodes(pairs, parent, coarse);
   interpolation = interpolate(fine, coarse, parent);
+}
+
+ElementParts::ElementParts(const std::vector<int>& parent, int coarse_count)
+    : first(coarse_count + 1, 0), elements(parent.size()) {
+  for (const int c : parent) ++first[c + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  for (int e = 0; e < static_cast<int>(parent.size()); ++e) elements[next[parent[e]]++] = e;
 }
 
 Interpolation Interpolation::transposed(int columns) const {

@@ -47,6 +47,15 @@ struct Coarsening {
   Interpolation interpolation;  ///< trilinear, from coarse nodes to fine nodes
 };
 
+/// The fine elements in each coarse one.
+struct ElementParts {
+  ElementParts() = default;
+  ElementParts(const std::vector<int>& parent, int coarse_count);
+  int size() const { return static_cast<int>(first.size()) - 1; }
+  std::vector<int> first{0};   ///< (|coarse| + 1) into elements
+  std::vector<int> elements;  ///< of the fine level, ascending in each
+};
+
 /// Weights of a coarse element's eight nodes at corner n of the fine element at `offset` (0 or 1 an axis) in
 /// it.
 Eigen::Matrix<double, 8, 1> corner_weights(const Vec3i& offset, int n);

@@ -38,10 +38,11 @@ void ElementProduct::apply(const SingleField& p, SingleField& y) const {
   apply(p, [&](int node, const Quad& sum) { y.col(node) = sum; });
 }
 
-const std::vector<NodeBlock>& ElementProduct::diagonal() {
+bool ElementProduct::update_diagonal() {
   fit(single_);
-  if (has_turned()) find_diagonal();
-  return diagonal_;
+  const bool turned = has_turned();
+  if (turned) find_diagonal();
+  return turned;
 }
 
 bool ElementProduct::has_turned() const {

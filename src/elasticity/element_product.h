@@ -51,10 +51,13 @@ class ElementProduct {
 
   void apply(const SingleField& p, SingleField& y) const;  ///< y = Σ R K Rᵀ p
 
-  /// The nodes' 3 × 3 blocks of Σ R K Rᵀ, N/m, up to date within kDiagonalTurn: until an element has turned
-  /// by more, they are those of the last call. (So what a solve makes of them depends, within its tolerance,
-  /// on the solves before.)
-  const std::vector<NodeBlock>& diagonal();
+  /// The nodes' 3 × 3 blocks of Σ R K Rᵀ, N/m, as of the last update.
+  const std::vector<NodeBlock>& diagonal() const { return diagonal_; }
+
+  /// Brings the blocks up to date within kDiagonalTurn: until an element has turned by more, they stay. (So
+  /// what a solve makes of them depends, within its tolerance, on the solves before.)
+  /// @return whether they changed
+  bool update_diagonal();
   static constexpr double kDiagonalTurn = 0.05;  ///< rad
 
  private:

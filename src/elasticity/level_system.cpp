@@ -38,8 +38,7 @@ void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
   assert(elements->set.node_count > 0);
   held_ = std::move(held);
   largest_ = 0.0;
-  node_diagonal_ = Eigen::VectorXf::Zero(elements->set.node_count);
-  stiffness_factor_ = 1.0f;
+  set_diagonal(Eigen::VectorXf::Zero(elements->set.node_count), 1.0f);
   constraints_.clear();
   direct_.forget_pattern();
   product_.arrange(std::move(elements));
@@ -47,6 +46,7 @@ void LevelSystem::arrange(ElementsPointer elements, std::vector<char> held) {
 }
 
 double LevelSystem::largest_at_rest(int steps) {
+  product_.update_diagonal();
   invert_blocks();
   return largest_eigenvalue(steps);
 }
@@ -57,13 +57,17 @@ void LevelSystem::estimate_largest() {
   largest_ = std::max(largest_, kSafety * largest_eigenvalue(kLanczosSteps));
 }
 
-void LevelSystem::set(std::vector<Mat3>&& rotations, Eigen::VectorXf node_diagonal, float stiffness_factor,
-                      std::vector<ConstraintRow> constraints) {
-  product_.rotate(std::move(rotations));
-  constraints_ = std::move(constraints);
+void LevelSystem::set_diagonal(Eigen::VectorXf node_diagonal, float stiffness_factor) {
   node_diagonal_ = std::move(node_diagonal);
   stiffness_factor_ = stiffness_factor;
-  invert_blocks();
+  inverse_fits_ = false;
+}
+
+void LevelSystem::set(std::vector<Mat3>&& rotations, std::vector<ConstraintRow> constraints) {
+  product_.rotate(std::move(rotations));
+  constraints_ = std::move(constraints);
+  if (product_.update_diagonal() || !inverse_fits_) invert_blocks();
+  inverse_fits_ = true;
   prepare_constraints();
 }
 

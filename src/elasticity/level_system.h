@@ -24,11 +24,13 @@ class LevelSystem {
   /// @param held per node: zero displacement
   void arrange(ElementsPointer elements, std::vector<char> held);
 
-  /// Takes over what changes from solve to solve.
+  /// Takes over what hardly ever changes; before the next `set`.
   /// @param node_diagonal N/m, per node
   /// @param stiffness_factor s
-  void set(std::vector<Mat3>&& rotations, Eigen::VectorXf node_diagonal, float stiffness_factor,
-           std::vector<ConstraintRow> constraints);
+  void set_diagonal(Eigen::VectorXf node_diagonal, float stiffness_factor);
+
+  /// Takes over what changes from solve to solve.
+  void set(std::vector<Mat3>&& rotations, std::vector<ConstraintRow> constraints);
 
   const ElementProduct& product() const { return product_; }
   const std::vector<char>& held() const { return held_; }
@@ -88,6 +90,7 @@ class LevelSystem {
   Eigen::VectorXf node_diagonal_;
   float stiffness_factor_ = 1.0f;
   std::vector<ConstraintRow> constraints_;
+  bool inverse_fits_ = false;
   std::vector<NodeBlock> inverse_;           // m/N, M⁻¹ without constraints; zero for held nodes
   Eigen::LDLT<Eigen::MatrixXf> compliance_;  // m/N, of the constraints: k⁻¹ + Cᵀ D⁻¹ C
   DirectSolver direct_;

@@ -49,6 +49,7 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
   std::vector<char> flags(model.mesh().node_count(), 0);
   for (int node : held) flags[node] = 1;
   levels_.clear();
+  node_diagonal_.resize(0);
   add_level(model.elements(), std::move(flags));
   while (levels_.size() < kMostLevels &&
          levels_.back().system.product().elements().set.node_count > kCoarsestNodes) {
@@ -59,6 +60,7 @@ void Multigrid::arrange(const ElasticModel& model, const std::vector<int>& held)
     if (galerkin_.size() < levels_.size()) galerkin_.emplace_back();
     coarsening.coarse.stiffness =
         galerkin_[levels_.size() - 1].assemble(elements, fine.system.held(), coarsening);
+    fine.parts = ElementParts(coarsening.parent, coarsening.coarse.size());
     fine.parent = std::move(coarsening.parent);
     fine.interpolation = without_held(coarsening.interpolation, fine.system.held());
     fine.prolongation = Prolongation(fine.interpolation);
@@ -78,40 +80,56 @@ void Multigrid::add_level(ElementsPointer elements, std::vector<char> held) {
 }
 
 void Multigrid::set(std::vector<Mat3>&& rotations, const SystemValues& values) {
-  const auto factor = static_cast<float>(values.stiffness_factor);
-  levels_.front().system.smooth_with(kFinest);
-  levels_.front().system.set(std::move(rotations), values.node_diagonal.cast<float>(), factor,
-                             rows_of(*values.constraints));
+  set_diagonals(values.node_diagonal, static_cast<float>(values.stiffness_factor));
+  levels_.front().system.set(std::move(rotations), rows_of(*values.constraints));
   for (std::size_t l = 1; l < levels_.size(); ++l) {
     const Level& fine = levels_[l - 1];
     LevelSystem& coarse = levels_[l].system;
-    const ElementSet& elements = coarse.product().elements().set;
-    Eigen::VectorXf diagonal = Eigen::VectorXf::Zero(elements.node_count);
+    coarse.set(coarse_rotations(fine), coarse_constraints(fine, coarse.product().elements().set));
+  }
+  levels_.back().system.factorise();
+}
+
+/// And the smoothing that suits them.
+void Multigrid::set_diagonals(const Eigen::VectorXd& finest, float stiffness_factor) {
+  if (stiffness_factor == stiffness_factor_ && finest.size() == node_diagonal_.size() &&
+      finest == node_diagonal_)
+    return;
+  node_diagonal_ = finest;
+  stiffness_factor_ = stiffness_factor;
+  levels_.front().system.set_diagonal(finest.cast<float>(), stiffness_factor);
+  levels_.front().system.smooth_with(kFinest);
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    const Level& fine = levels_[l - 1];
+    LevelSystem& coarse = levels_[l].system;
+    Eigen::VectorXf diagonal = Eigen::VectorXf::Zero(coarse.node_diagonal().size());
     for (int n = 0; n < fine.interpolation.rows(); ++n)
       for (const Interpolation::Term& term : fine.interpolation.row(n))
         diagonal[term.node] += term.weight() * fine.system.node_diagonal()[n];
-    coarse.set(coarse_rotations(fine, elements.size()), std::move(diagonal), factor,
-               coarse_constraints(fine, elements));
+    coarse.set_diagonal(std::move(diagonal), stiffness_factor);
     const bool little = coarse.inertia() < kLittleInertia;
     coarse.smooth_with(little ? kWithout : kWithInertia);
     levels_[l].cycles = little && l > 1 && l + 1 < levels_.size() ? 2 : 1;
   }
-  levels_.back().system.factorise();
 }
 
 void Multigrid::adapt_smoothers() {
   for (Level& level : levels_) level.system.estimate_largest();
 }
 
-/// The rotation nearest to the sum of the parts'.
-std::vector<Mat3> Multigrid::coarse_rotations(const Level& fine, int count) const {
-  std::vector<Mat3> sums(count, Mat3::Zero());
+/// The rotations nearest to the sums of the parts'.
+std::vector<Mat3> Multigrid::coarse_rotations(const Level& fine) const {
   const std::vector<Mat3>& rotations = fine.system.product().rotations();
-  for (std::size_t e = 0; e < rotations.size(); ++e) sums[fine.parent[e]] += rotations[e];
-  for_each_node(pool_, count, [&](int e) {
-    sums[e] = polar_rotation(sums[e] / std::max(sums[e].norm(), 1e-6) * std::sqrt(3.0)).R;
+  const ElementParts& parts = fine.parts;
+  std::vector<Mat3> coarse(parts.size());
+  pool_.for_range(parts.size(), ElementTiles::kFewest, [&](int begin, int end) {
+    for (int c = begin; c < end; ++c) {
+      Mat3 sum = Mat3::Zero();
+      for (int i = parts.first[c]; i < parts.first[c + 1]; ++i) sum += rotations[parts.elements[i]];
+      coarse[c] = polar_rotation(sum / std::max(sum.norm(), 1e-6) * std::sqrt(3.0)).R;
+    }
   });
-  return sums;
+  return coarse;
 }
 
 std::vector<ConstraintRow> Multigrid::coarse_constraints(const Level& fine, const ElementSet& coarse) const {

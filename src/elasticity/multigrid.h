@@ -48,6 +48,7 @@ class Multigrid {
     LevelSystem system;
     int cycles = 1;           // on this level, for each on the finer one
     std::vector<int> parent;  // coarse element of each element
+    ElementParts parts;       // of each coarse element
     Interpolation interpolation, restriction;
     Prolongation prolongation;
     mutable SingleField coarse_load, coarse_x;
@@ -56,12 +57,15 @@ class Multigrid {
   void add_level(ElementsPointer elements, std::vector<char> held);
   void cycle(std::size_t level, const SingleField& b, SingleField& x) const;
   void cycle_again(std::size_t level, const SingleField& b, SingleField& x) const;
-  std::vector<Mat3> coarse_rotations(const Level& fine, int count) const;
+  void set_diagonals(const Eigen::VectorXd& finest, float stiffness_factor);
+  std::vector<Mat3> coarse_rotations(const Level& fine) const;
   std::vector<ConstraintRow> coarse_constraints(const Level& fine, const ElementSet& coarse) const;
 
   ThreadPool& pool_;
   std::uint64_t version_ = 0;
   std::vector<int> held_;
+  Eigen::VectorXd node_diagonal_;  // what the levels' diagonals are of; empty: not set yet
+  float stiffness_factor_ = 0.0f;
   std::deque<Level> levels_;
   std::vector<GalerkinMatrices> galerkin_;  // kept from mesh to mesh
   std::vector<LargestEigenvalue> largest_;  // kept, too

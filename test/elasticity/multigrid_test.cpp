@@ -114,9 +114,11 @@ TEST_F(Cycle, ProlongationAddsWhatInterpolationMakes) {
 float change_of_diagonal(const ElasticModel& model, ThreadPool& pool, const Vec3& axis, double angle) {
   ElementProduct product(pool);
   product.arrange(model.elements());
+  product.update_diagonal();
   const std::vector<NodeBlock> before = product.diagonal();
   const Mat3 R = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
   product.rotate(std::vector<Mat3>(model.elements()->set.size(), R));
+  product.update_diagonal();
   const std::vector<NodeBlock>& after = product.diagonal();
   float largest = 0.0f, change = 0.0f;
   for (std::size_t n = 0; n < before.size(); ++n) {
