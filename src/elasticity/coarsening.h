@@ -52,7 +52,7 @@ struct ElementParts {
   ElementParts() = default;
   ElementParts(const std::vector<int>& parent, int coarse_count);
   int size() const { return static_cast<int>(first.size()) - 1; }
-  std::vector<int> first{0};   ///< (|coarse| + 1) into elements
+  std::vector<int> first{0};  ///< (|coarse| + 1) into elements
   std::vector<int> elements;  ///< of the fine level, ascending in each
 };
 

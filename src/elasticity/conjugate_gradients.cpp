@@ -16,9 +16,7 @@ constexpr double kRounding = 1e-15;
 /// Conjugate gradients in single precision reduce a residual by no more than this at once.
 constexpr double kMostReduction = 1e-5;
 
-double norm(ThreadPool& pool, const NodeField& field) {
-  return std::sqrt(dot(pool, field, field));
-}
+double norm(ThreadPool& pool, const NodeField& field) { return std::sqrt(dot(pool, field, field)); }
 
 void set_zero(ThreadPool& pool, Eigen::Index count, SingleField& field) {
   field.resize(4, count);

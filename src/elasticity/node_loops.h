@@ -18,8 +18,8 @@ void for_each_node(ThreadPool& pool, Eigen::Index count, const Work& work) {
   });
 }
 
-/// Σ of the entries of term(node), a small vector, in parts of fixed size, so that the sum is the same for any
-/// number of threads.
+/// Σ of the entries of term(node), a small vector, in parts of fixed size, so that the sum is the same for
+/// any number of threads.
 template <typename Term>
 double sum_over_nodes(ThreadPool& pool, Eigen::Index count, const Term& term) {
   constexpr int kPart = 1024;

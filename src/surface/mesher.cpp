@@ -1,7 +1,7 @@
 #include "mesher.h"
 
 #include <algorithm>
-#include <numeric>
+#include <set>
 
 #include "cfem_cutting/volume/inside.h"
 
@@ -15,21 +15,12 @@ std::int64_t arc_end_key(const DualCell& cell, LocalSide side, int normal_axis) 
   return kDirections * link_side + direction_from(corner, 3 - side % 3 - normal_axis);
 }
 
-/// Shape of a triangle, positive if it is counter-clockwise about an axis: twice its area over its longest
-/// edge squared; else its projected area, m².
-double shape(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
-  const Vec3 area = (b - a).cross(c - a);
-  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  constexpr double kFlat = 1e-9;
-  return area[axis] > kFlat * longest ? area.norm() / longest : area[axis] - kFlat * longest;
-}
-
 }  // namespace
 
 void Mesher::build(const Contour& contour) {
   surface_ = {};
-  quads_.clear();
-  fan_triangles_.clear();
+  parts_.clear();
+  quad_of_side_.clear();
   anchors_.clear();
   chain_.clear();
   adapted_.clear();
@@ -42,44 +33,23 @@ void Mesher::build(const Contour& contour) {
   surface_.triangles.reserve(2 * contour.sides().size());
   surface_.cut.reserve(2 * contour.sides().size());
   surface_.label.reserve(2 * contour.sides().size());
-  quads_.reserve(contour.sides().size());
+  parts_.reserve(contour.sides().size());
   for (const LinkSide side : contour.sides()) add_polygon(contour, polygon_of(contour, side));
-  for (const Quad& quad : quads_) split(quad);
-  find_pieces();
-}
-
-/// Per vertex the quads and fans' triangles that it is a corner of.
-void Mesher::find_pieces() {
-  const auto for_corners = [&](const auto& work) {
-    int piece = 0;
-    for (const Quad& quad : quads_) {
-      for (const int v : quad.corners) work(v, piece);
-      ++piece;
-    }
-    for (const int t : fan_triangles_) {
-      for (const int v : surface_.triangles[t]) work(v, piece);
-      ++piece;
-    }
-  };
-  first_piece_.assign(surface_.vertices.size() + 1, 0);
-  for_corners([&](int v, int) { ++first_piece_[v + 1]; });
-  std::partial_sum(first_piece_.begin(), first_piece_.end(), first_piece_.begin());
-  pieces_.resize(first_piece_.back());
-  std::vector<int> next(first_piece_.begin(), first_piece_.end() - 1);
-  for_corners([&](int v, int piece) { pieces_[next[v]++] = piece; });
+  parts_.sort_by_vertex(static_cast<int>(surface_.vertices.size()), surface_.triangles);
+  for (const bool cut : {false, true})
+    for (int part = 0; part < parts_.quad_count(); ++part)
+      if (is_cut(part) == cut) split(parts_.quad(part));
 }
 
 /// Those at the vertices of cells, ascending.
-std::vector<int> Mesher::pieces_at(const std::vector<int>& cells) const {
-  std::vector<char> flags(quads_.size() + fan_triangles_.size(), 0);
+std::vector<int> Mesher::parts_at(const std::vector<int>& cells) const {
+  std::vector<int> parts;
   for (const int cell : cells)
     for (const int v : vertex_of_sheet_[cell])
-      if (v >= 0)
-        for (int i = first_piece_[v]; i < first_piece_[v + 1]; ++i) flags[pieces_[i]] = 1;
-  std::vector<int> pieces;
-  for (std::size_t piece = 0; piece < flags.size(); ++piece)
-    if (flags[piece]) pieces.push_back(static_cast<int>(piece));
-  return pieces;
+      if (v >= 0) parts.insert(parts.end(), parts_.at(v).begin(), parts_.at(v).end());
+  std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+  return parts;
 }
 
 void Mesher::add_polygon(const Contour& contour, const Polygon& polygon) {
@@ -93,10 +63,19 @@ void Mesher::add_polygon(const Contour& contour, const Polygon& polygon) {
 }
 
 void Mesher::add_quad(const Contour& contour, const Polygon& polygon, const std::vector<int>& corners) {
-  quads_.push_back({{corners[0], corners[1], corners[2], corners[3]},
-                    polygon.direction,
-                    static_cast<int>(surface_.triangles.size())});
+  const int quad = parts_.add({{corners[0], corners[1], corners[2], corners[3]},
+                               polygon.direction,
+                               static_cast<int>(surface_.triangles.size())});
   for (int i : {1, 2}) add_triangle(contour, polygon, corners[0], corners[i], corners[i + 1]);
+  if (is_cut(quad)) note_twin(contour, polygon, quad);
+}
+
+/// The two sides of a severed link have their corners in the same cells, in the same order.
+void Mesher::note_twin(const Contour& contour, const Polygon& polygon, int quad) {
+  const int other = contour.volume().voxel(polygon.voxel).neighbour[polygon.direction];
+  quad_of_side_[kDirections * polygon.voxel + polygon.direction] = quad;
+  const auto twin = quad_of_side_.find(kDirections * other + opposite(polygon.direction));
+  if (twin != quad_of_side_.end()) parts_.pair_up(quad, twin->second);
 }
 
 /// Around a vertex of its own where the link meets the surface: positive, as each corner stays in its cell.
@@ -104,7 +83,7 @@ void Mesher::add_fan(const Contour& contour, const Polygon& polygon, const std::
   const int centre = add_fixed_vertex(contour.volume().crossing(polygon.voxel, polygon.direction).point,
                                       polygon.voxel, contour.cells()[polygon.cell[0]].index);
   for (std::size_t i = 0; i < rim.size(); ++i) {
-    fan_triangles_.push_back(static_cast<int>(surface_.triangles.size()));
+    parts_.add_fan_triangle(static_cast<int>(surface_.triangles.size()));
     add_triangle(contour, polygon, centre, rim[i], rim[(i + 1) % rim.size()]);
   }
 }
@@ -160,16 +139,33 @@ void Mesher::add_triangle(const Contour& contour, const Polygon& polygon, int a,
 }
 
 void Mesher::place(const Contour& contour, const std::vector<int>& cells) {
-  std::vector<char> moved(surface_.vertices.size(), 0);
+  std::vector<int> moved;
   for (const int cell : cells)
     for (const int v : vertex_of_sheet_[cell])
-      if (v >= 0 && move(contour, v)) moved[v] = 1;
-  const int quads = static_cast<int>(quads_.size());
-  for (const int piece : pieces_at(cells)) {
-    if (piece >= quads) break;
-    const auto& [a, b, c, d] = quads_[piece].corners;
-    if (moved[a] || moved[b] || moved[c] || moved[d]) split(quads_[piece]);
+      if (v >= 0 && move(contour, v)) moved.push_back(v);
+  split_around(moved);
+}
+
+/// Splits the quads at vertices, the skin first, and those of cuts that the skin there may go through.
+void Mesher::split_around(const std::vector<int>& moved) {
+  std::set<int> cut_quads;
+  const auto take = [&](int part) {
+    if (!parts_.is_quad(part) || !is_cut(part)) return;
+    const int twin = parts_.quad(part).twin;
+    cut_quads.insert(part);
+    if (twin >= 0) cut_quads.insert(twin);
+  };
+  std::set<int> skin;
+  for (const int v : moved)
+    for (const int part : parts_.at(v)) is_cut(part) ? take(part) : void(skin.insert(part));
+  for (const int part : skin) {
+    if (parts_.is_quad(part)) split(parts_.quad(part));
+    const MeshParts::Triangles triangles = parts_.triangles(part);
+    for (int t = triangles.first; t < triangles.end; ++t)
+      for (const int v : surface_.triangles[t])
+        for (const int beside : parts_.at(v)) take(beside);
   }
+  for (const int part : cut_quads) split(parts_.quad(part));
 }
 
 /// To where its group is.
@@ -213,13 +209,12 @@ std::vector<Anchor> Mesher::turned(const std::vector<int>& cells) const {
     for (const int v : corners)
       if (adapted_[v]) anchors.push_back(anchors_[v]);
   };
-  const int quads = static_cast<int>(quads_.size());
-  for (const int piece : pieces_at(cells)) {
-    if (piece < quads) {  // the corner opposite may have left no better diagonal
-      const Quad& quad = quads_[piece];
+  for (const int part : parts_at(cells)) {
+    if (parts_.is_quad(part)) {  // the corner opposite may have left no better diagonal
+      const Quad& quad = parts_.quad(part);
       if (is_turned(quad.first_triangle) || is_turned(quad.first_triangle + 1)) take(quad.corners);
     } else {
-      const int triangle = fan_triangles_[piece - quads];
+      const int triangle = parts_.triangles(part).first;
       if (is_turned(triangle)) take(surface_.triangles[triangle]);
     }
   }
@@ -234,12 +229,11 @@ std::vector<Anchor> Mesher::turned(const std::vector<int>& cells) const {
 
 std::vector<std::pair<Anchor, Anchor>> Mesher::missed_diagonals(const std::vector<int>& cells) const {
   std::vector<std::pair<Anchor, Anchor>> missed;
-  const int quads = static_cast<int>(quads_.size());
-  for (const int piece : pieces_at(cells)) {
-    if (piece >= quads) break;
-    const Quad& quad = quads_[piece];
+  for (const int part : parts_at(cells)) {
+    if (!parts_.is_quad(part)) break;
+    const Quad& quad = parts_.quad(part);
     for (const int i : {0, 1})
-      if (is_on_chain(quad, i) && !(worse_shape(quad, i) > 0.0))
+      if (diagonals().chain_misses(quad, i))
         missed.emplace_back(anchors_[quad.corners[i]], anchors_[quad.corners[i + 2]]);
   }
   return missed;
@@ -251,32 +245,9 @@ void Mesher::split(const Quad& quad) {
     surface_.triangles[quad.first_triangle + offset] =
         quad.direction % 2 ? std::array<int, 3>{p, q, r} : std::array<int, 3>{p, r, q};
   };
-  const bool second = prefers_second_diagonal(quad);
+  const bool second = diagonals().prefers_second(quad);
   second ? write(0, b, c, d) : write(0, a, b, c);
   second ? write(1, b, d, a) : write(1, a, c, d);
-}
-
-/// The worse of a quad's two triangles about its link, on the diagonal from corner i.
-double Mesher::worse_shape(const Quad& quad, int i) const {
-  const auto X = [&](int k) -> const Vec3& { return surface_.vertices[quad.corners[k % 4]].X; };
-  const int axis = quad.direction / 2;
-  return std::min(shape(X(i), X(i + 1), X(i + 2), axis), shape(X(i), X(i + 2), X(i + 3), axis));
-}
-
-/// Whether the chain of vertices on the front takes the diagonal from corner i.
-bool Mesher::is_on_chain(const Quad& quad, int i) const {
-  const int a = chain_[quad.corners[i]], b = chain_[quad.corners[i + 2]];
-  return a >= 0 && b >= 0 && std::abs(a - b) == 1;
-}
-
-/// Both triangles must be positive about the link. Among such, the diagonal of a chain of vertices on the
-/// front that leaves out a corner, else the better shaped triangles.
-bool Mesher::prefers_second_diagonal(const Quad& quad) const {
-  const double first_shape = worse_shape(quad, 0), second_shape = worse_shape(quad, 1);
-  if (is_on_chain(quad, 0) && first_shape > 0.0) return false;
-  if (is_on_chain(quad, 1) && second_shape > 0.0) return true;
-  constexpr double kTie = 1e-9;
-  return second_shape > first_shape + kTie;
 }
 
 }  // namespace cfem_cutting

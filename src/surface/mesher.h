@@ -3,6 +3,8 @@
 #include <unordered_map>
 
 #include "cfem_cutting/surface/tissue_surface.h"
+#include "diagonals.h"
+#include "mesh_parts.h"
 #include "polygon.h"
 
 namespace cfem_cutting {
@@ -19,7 +21,7 @@ class Mesher {
   /// Vertices and triangles anew.
   void build(const Contour& contour);
 
-  /// Places the vertices of cells, and splits quads whose corners moved.
+  /// Places the vertices of cells, and splits quads again whose corners moved, or the skin beside them.
   void place(const Contour& contour, const std::vector<int>& cells);
 
   /// A vertex of its own in a cell's face, for one of several arcs there between the same two sheets.
@@ -42,13 +44,6 @@ class Mesher {
   const TissueSurface& surface() const { return surface_; }
 
  private:
-  /// Two triangles whose diagonal depends on the corners' places.
-  struct Quad {
-    std::array<int, 4> corners;  ///< counter-clockwise about +axis
-    int direction;
-    int first_triangle;
-  };
-
   void add_polygon(const Contour& contour, const Polygon& polygon);
   void add_fan(const Contour& contour, const Polygon& polygon, const std::vector<int>& rim);
   void add_quad(const Contour& contour, const Polygon& polygon, const std::vector<int>& corners);
@@ -57,21 +52,19 @@ class Mesher {
   int add_fixed_vertex(const Vec3& X, int voxel, const Vec3i& cell);
   void add_triangle(const Contour& contour, const Polygon& polygon, int a, int b, int c);
   static int voxel_of(const Contour& contour, const Anchor& anchor);
-  void find_pieces();
-  std::vector<int> pieces_at(const std::vector<int>& cells) const;
+  void note_twin(const Contour& contour, const Polygon& polygon, int quad);
+  std::vector<int> parts_at(const std::vector<int>& cells) const;
   bool move(const Contour& contour, int vertex);
   bool is_turned(int triangle) const;
+  bool is_cut(int part) const { return surface_.cut[parts_.triangles(part).first]; }
+  void split_around(const std::vector<int>& moved);
   void split(const Quad& quad);
-  double worse_shape(const Quad& quad, int i) const;
-  bool is_on_chain(const Quad& quad, int i) const;
-  bool prefers_second_diagonal(const Quad& quad) const;
+  Diagonals diagonals() const { return {surface_, parts_, chain_}; }
 
   TissueSurface surface_;
   std::vector<int> direction_;  // per triangle: of its link
-  std::vector<Quad> quads_;
-  std::vector<int> fan_triangles_;
-  std::vector<int> first_piece_;                     // (|vertices| + 1) into pieces_
-  std::vector<int> pieces_;                          // per vertex: quads, and beyond them fans' triangles
+  MeshParts parts_;
+  std::unordered_map<LinkSide, int> quad_of_side_;   // of severed links
   std::vector<Anchor> anchors_;                      // per vertex; fixed ones have cell −1
   std::vector<int> chain_;                           // per vertex: SheetGroup::chain
   std::vector<char> adapted_;                        // per vertex: it has a virtual intersection point

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 
+#include "cfem_cutting/geometry/self_crossings.h"
 #include "surface/ball.h"
 #include "surface/tissue.h"
 
@@ -84,6 +85,22 @@ VoxelVolume two_labels(const Vec3i& size, int height) {
   LabelImage image{size, Vec3::Ones(), {}};
   for (int n = 0; n < size.prod(); ++n) image.labels.push_back(n / (size.x() * size.y()) < height ? 1 : 2);
   return VoxelVolume::sample(*make_label_shape(image, {1, 2}, Pose::Identity(), "two labels"), Vec3::Ones());
+}
+
+TEST(Contouring, cut_faces_do_not_go_through_the_skin) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  int crossing = 0, triangles = 0;
+  for (int i = 0; i < 20; ++i) {
+    VoxelVolume volume = VoxelVolume::sample(Ball(6.3), Vec3::Ones());
+    for (int cuts = 0; cuts < 2; ++cuts)
+      sever(volume, {4.0 * Vec3(any(random), any(random), any(random)),
+                     Vec3(any(random), any(random), any(random)).normalized()});
+    const TriangleMesh mesh = contour(volume);
+    crossing += count_self_crossings(mesh);
+    triangles += static_cast<int>(mesh.triangles.size());
+  }
+  EXPECT_LT(crossing, 5e-4 * triangles);
 }
 
 TEST(Labels, of_triangles_are_those_of_the_tissue_behind_them) {
