@@ -6,6 +6,8 @@
 #include <set>
 
 #include "cfem_cutting/geometry/polyline.h"
+#include "cfem_cutting/volume/inside.h"
+#include "cfem_cutting/volume/link_way.h"
 #include "front_walk.h"
 #include "polygon.h"
 
@@ -13,12 +15,13 @@ namespace cfem_cutting {
 namespace {
 
 // What a chain costs, in voxel edges of stretch.
-constexpr double kShortPiece = 0.1;  // of a voxel: shorter pieces of the trace would give needles
-constexpr double kDetour = 0.3;      // for a vertex whose cell the trace does not pass
-constexpr double kBreak = 3.0;       // for vertices that nothing joins
-constexpr double kUncovered = 5.0;   // for each voxel of the trace's length, where one vertex stands for all
-constexpr double kNearest = 0.005;   // of a voxel, between vertices
-constexpr double kWidestGap = 1.0;   // in voxels, that is closed where the surface joins no vertices
+constexpr double kShortPiece = 0.1;   // of a voxel: shorter pieces of the trace would give needles
+constexpr double kDetour = 0.3;       // for a vertex whose cell the trace does not pass
+constexpr double kOtherTissue = 1.0;  // for a vertex across a cut from the tissue where it would be
+constexpr double kBreak = 3.0;        // for vertices that nothing joins
+constexpr double kUncovered = 5.0;    // for each voxel of the trace's length, where one vertex stands for all
+constexpr double kNearest = 0.005;    // of a voxel, between vertices
+constexpr double kWidestGap = 1.0;    // in voxels, that is closed where the surface joins no vertices
 
 /// A group that may become part of the chain.
 struct Node {
@@ -128,8 +131,17 @@ class ChainFinder {
     node.piece = static_cast<int>(piece);
     node.X = X;
     node.along = from_[piece] + along_in(walk_[piece].points, X);
-    node.cost = cost;
+    node.cost = cost + (is_other_tissue(cell, group, X) ? kOtherTissue : 0.0);
     return node;
+  }
+
+  /// Whether none of a group's sheets is joined with the tissue at X.
+  bool is_other_tissue(int cell, int group, const Vec3& X) const {
+    const int voxel = tissue_voxel_at(contour_.volume(), X);
+    const std::vector<Sheet>& sheets = contour_.cells()[cell].sheets;
+    return voxel >= 0 && std::all_of(sheets.begin(), sheets.end(), [&](const Sheet& sheet) {
+             return sheet.group != group || are_parted(contour_.volume(), sheet.voxel, voxel);
+           });
   }
 
   static double along_in(const Polyline& points, const Vec3& X) {

@@ -13,4 +13,8 @@ enum class LinkKind {
 /// over links of a kind.
 bool are_joined(const VoxelVolume& volume, int v, int w, LinkKind kind);
 
+/// Whether two voxels are three steps apart at most and no such way goes over intact links: tissue on two
+/// sides of a cut, or that only touches.
+bool are_parted(const VoxelVolume& volume, int v, int w);
+
 }  // namespace cfem_cutting
