@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cfem_cutting/volume/link_way.h"
 #include "error_function.h"
 
 namespace cfem_cutting {
@@ -124,6 +125,13 @@ LocalSide DualCell::arc_end(LocalSide side, int normal_axis) const {
     axis = 3 - axis - normal_axis;
   }
   return 3 * corner + axis;
+}
+
+bool is_other_tissue(const VoxelVolume& volume, const DualCell& cell, int group, int voxel) {
+  for (LocalSide side = 0; side < kLocalSides; ++side)
+    if (cell.groups[group].sides >> side & 1 && !are_parted(volume, cell.voxel[side / 3], voxel))
+      return false;
+  return true;
 }
 
 Vec3 onto_skin(const Vec3& X, const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {

@@ -67,6 +67,9 @@ struct DualCell {
   LocalSide arc_end(LocalSide side, int normal_axis) const;
 };
 
+/// Whether none of the tissue that a group bounds is joined with a voxel near it.
+bool is_other_tissue(const VoxelVolume& volume, const DualCell& cell, int group, int voxel);
+
 /// A point moved onto the skin's planes of a group, if it has skin.
 Vec3 onto_skin(const Vec3& X, const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group);
 

@@ -7,7 +7,6 @@
 
 #include "cfem_cutting/geometry/polyline.h"
 #include "cfem_cutting/volume/inside.h"
-#include "cfem_cutting/volume/link_way.h"
 #include "front_walk.h"
 #include "polygon.h"
 
@@ -131,17 +130,11 @@ class ChainFinder {
     node.piece = static_cast<int>(piece);
     node.X = X;
     node.along = from_[piece] + along_in(walk_[piece].points, X);
-    node.cost = cost + (is_other_tissue(cell, group, X) ? kOtherTissue : 0.0);
-    return node;
-  }
-
-  /// Whether none of a group's sheets is joined with the tissue at X.
-  bool is_other_tissue(int cell, int group, const Vec3& X) const {
     const int voxel = tissue_voxel_at(contour_.volume(), X);
-    const std::vector<Sheet>& sheets = contour_.cells()[cell].sheets;
-    return voxel >= 0 && std::all_of(sheets.begin(), sheets.end(), [&](const Sheet& sheet) {
-             return sheet.group != group || are_parted(contour_.volume(), sheet.voxel, voxel);
-           });
+    const bool elsewhere =
+        voxel >= 0 && is_other_tissue(contour_.volume(), contour_.cells()[cell], group, voxel);
+    node.cost = cost + (elsewhere ? kOtherTissue : 0.0);
+    return node;
   }
 
   static double along_in(const Polyline& points, const Vec3& X) {

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "cfem_cutting/volume/inside.h"
-#include "cfem_cutting/volume/link_way.h"
 
 namespace cfem_cutting {
 namespace {
@@ -194,7 +193,7 @@ int Mesher::voxel_of(const Contour& contour, const Anchor& anchor) {
   const bool moved = group.adapted || group.frozen;
   if (!moved || std::count_if(cell.sheets.begin(), cell.sheets.end(), is_in_group) > 1) return anchor.voxel;
   const int voxel = tissue_voxel_at(contour.volume(), group.X());
-  return voxel >= 0 && !are_parted(contour.volume(), anchor.voxel, voxel) ? voxel : anchor.voxel;
+  return voxel >= 0 && !is_other_tissue(contour.volume(), cell, anchor.group, voxel) ? voxel : anchor.voxel;
 }
 
 bool Mesher::is_turned(int triangle) const {

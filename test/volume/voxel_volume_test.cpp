@@ -46,6 +46,9 @@ TEST(LinkWay, JoinsOverIntactLinksOnly) {
   EXPECT_FALSE(are_joined(volume, at(1, 1, 1), at(2, 2, 1), LinkKind::kIntact));
   EXPECT_TRUE(are_joined(volume, at(1, 1, 1), at(2, 2, 1), LinkKind::kAny));
   EXPECT_TRUE(are_joined(volume, at(2, 1, 1), at(3, 2, 2), LinkKind::kIntact));
+  EXPECT_TRUE(are_parted(volume, at(1, 1, 1), at(2, 2, 1)));
+  EXPECT_FALSE(are_parted(volume, at(2, 1, 1), at(3, 2, 2)));
+  EXPECT_FALSE(are_parted(volume, at(0, 0, 0), at(3, 3, 1)));  // too far to tell
 }
 
 TEST(VoxelVolume, AlignedBoxIsExact) {
