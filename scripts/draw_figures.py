@@ -11,7 +11,7 @@ import sys
 import numpy
 import rosbag
 import yaml
-from PIL import Image
+from PIL import Image, ImageDraw, ImageFont
 from tissue_picture import Blade, Camera, Surface, draw
 
 PACKAGE = pathlib.Path(__file__).resolve().parent.parent
@@ -60,10 +60,22 @@ class Run:
         return self.poses[int(numpy.argmin(abs(self.stamps - time)))]
 
 
-def sheet(rows):
-    """Tiles put together, with white lines in between."""
+def label(text, length):
+    """A line of text, centred in a white strip of a length (pixels)."""
+    image = Image.new("RGB", (length, 34), "white")
+    font = ImageFont.truetype("DejaVuSans.ttf", 20)
+    ImageDraw.Draw(image).text((length // 2, 17), text, "black", font, anchor="mm")
+    return numpy.asarray(image)
+
+
+def sheet(rows, row_names, column_names):
+    """Tiles put together, with white lines in between, names over the columns and, turned, beside the rows."""
     padded = [[numpy.pad(tile, ((2, 2), (2, 2), (0, 0)), constant_values=255) for tile in row] for row in rows]
-    return numpy.vstack([numpy.hstack(row) for row in padded])
+    sides = [numpy.rot90(label(name, row[0].shape[0])) for name, row in zip(row_names, padded)]
+    lines = [numpy.hstack([side, *row]) for side, row in zip(sides, padded)]
+    top = [label(name, tile.shape[1]) for name, tile in zip(column_names, padded[0])]
+    corner = numpy.full((34, 34, 3), 255, numpy.uint8)
+    return numpy.vstack([numpy.hstack([corner, *top]), *lines])
 
 
 def inset(tile, close_up):
@@ -105,7 +117,8 @@ def liver(results):
         last = run.surface_at(run.times[-1])
         tiles = [run.tile(surface, LIVER) for surface in (*shown[:3], last)]
         rows.append([inset(tile, close_up(run, surface)) for tile, surface in zip(tiles, shown[:3])] + tiles[3:])
-    return sheet(rows)
+    return sheet(rows, ("immediate", "delayed", "delayed, adaptation"),
+                 ("deforming", "fractured", "deforming, a later unit", "the blade is out"))
 
 
 def models(results):
@@ -115,7 +128,7 @@ def models(results):
     for name, (units, camera) in MODELS.items():
         run = Run(results / name, name, bags[name])
         rows.append([run.tile(surface, camera) for surface in run.units(units)])
-    return sheet(rows)
+    return sheet(rows, MODELS, ["deformed", "cut"] * 3)
 
 
 if __name__ == "__main__":

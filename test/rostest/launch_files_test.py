@@ -24,7 +24,8 @@ class LaunchFilesTest(unittest.TestCase):
 
     def launch(self, file, *arguments, config=BOX):
         launch = subprocess.Popen(["roslaunch", "cfem_cutting", file, "rviz:=false", "config:=" + config, *arguments],
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True,
+                                  cwd=self.folder, env=dict(os.environ, PWD=self.folder))
         self.addCleanup(self.end, launch)
         return launch
 
@@ -46,7 +47,8 @@ class LaunchFilesTest(unittest.TestCase):
         return path
 
     def test_bag_that_is_not_there(self):
-        self.check_end(["none.bag", "No such file"], "playback.launch", "bag:=" + self.folder + "/none.bag")
+        for name in ("none.bag", self.folder + "/none.bag"):
+            self.check_end([self.folder + "/none.bag", "No such file"], "playback.launch", "bag:=" + name)
 
     def test_file_that_is_no_bag(self):
         self.check_end(["no.bag", "is no bag"], "playback.launch", "bag:=" + self.write("no.bag", "no bag\n" * 100))
@@ -62,7 +64,7 @@ class LaunchFilesTest(unittest.TestCase):
         self.check_end([path, "PointStamped", "must be geometry_msgs/PoseStamped"], "playback.launch", "bag:=" + path)
 
     def test_path_that_is_not_there(self):
-        self.check_end(["/none.yaml", "cannot be read"], "path.launch", "path:=none.yaml")
+        self.check_end([self.folder + "/none.yaml", "cannot be read"], "path.launch", "path:=none.yaml")
 
     def bag_with_more(self):
         """The slice, and a topic that nobody listens to."""
