@@ -1,10 +1,14 @@
 #include "cfem_cutting/ros/diagnostics.h"
 
+#include <ros/console.h>
+
 namespace cfem_cutting {
 namespace {
 
 using diagnostic_updater::DiagnosticStatusWrapper;
 using Level = diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kWarnEvery = 10.0;  // s, on the console
 
 std::uint64_t skipped_poses(const PoseCounts& counts) {
   return counts.invalid + counts.no_stamp + counts.out_of_order + counts.no_transform + counts.thinned;
@@ -33,6 +37,12 @@ void Diagnostics::report_input(DiagnosticStatusWrapper& status) const {
     status.mergeSummaryf(Level::WARN, "%lu poses left out",
                          static_cast<unsigned long>(skipped_poses(counts)));
   }
+  if (tracker_.publishers() > 1) {
+    status.mergeSummary(Level::WARN, "several publishers mix");
+    ROS_WARN_THROTTLE(kWarnEvery, "The %s come from %d publishers and mix: there must be one",
+                      tracker_.source().c_str(), tracker_.publishers());
+  }
+  status.add("publishers", tracker_.publishers());
   status.add("received", counts.received);
   status.add("used", counts.used);
   status.add("invalid", counts.invalid);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Poses that are no use are counted and left out, and the cut goes on."""
 
+import subprocess
 import time
 
 import rospy
@@ -53,6 +54,17 @@ class BadPosesTest(NodeTest):
                 self.poses.publish(make_pose(7000, xyz, quaternion))
                 time.sleep(0.1)
             self.assertLess(time.monotonic(), end, (words, lines))
+        subscriber.unregister()
+
+    def test_a_second_publisher_is_told(self):
+        lines = []
+        subscriber = rospy.Subscriber("/rosout", Log, lambda log: lines.append(log.msg))
+        other = subprocess.Popen(["rostopic", "pub", "-r", "1", "/tool/measured_cp", "geometry_msgs/PoseStamped", "{}"],
+                                 stdout=subprocess.DEVNULL)
+        self.addCleanup(other.wait)
+        self.addCleanup(other.terminate)
+        wait_until(lambda: any("/tool/measured_cp" in line and "2 publishers" in line for line in lines),
+                   "a line names the topic and the publishers", 30)
         subscriber.unregister()
 
     def jumps(self):

@@ -33,6 +33,9 @@ class ToolTracker {
   /// Where poses come from, for people.
   std::string source() const;
 
+  /// Who publishes poses on the topic: of more than one they mix.
+  int publishers() const { return static_cast<int>(subscriber_.getNumPublishers()); }
+
   void clear() { queue_.clear(); }
   bool has_poses() const { return queue_.has_placed(); }
   PoseCounts counts() const { return queue_.counts(); }
