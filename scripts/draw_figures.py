@@ -88,7 +88,7 @@ def inset(tile, close_up):
 
 
 def save(path, picture):
-    Image.fromarray(picture).quantize(200, dither=Image.Dither.NONE).save(path, optimize=True)
+    Image.fromarray(picture).quantize(256, kmeans=3, dither=Image.Dither.NONE).save(path, optimize=True)
     print(path, picture.shape, path.stat().st_size // 1000, "kB")
 
 
