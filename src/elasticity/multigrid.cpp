@@ -12,9 +12,9 @@ namespace {
 constexpr int kCoarsestNodes = 40;  // few enough to be factorised in every solve
 constexpr std::size_t kMostLevels = 12;
 
-/// Partly filled or cut elements need more work on coarse levels, but only where inertia (see LevelSystem) is
-/// less than this.
-constexpr double kLittleInertia = 0.01;
+/// Less inertia (see LevelSystem) takes a second cycle, hardly any also more smoothing, for partly filled,
+/// cut and mixed elements.
+constexpr double kLittleInertia = 0.01, kHardlyAny = 0.001;
 constexpr Smoothing kFinest{2, 0.06}, kWithInertia{3, 0.05}, kWithout{5, 0.02};
 
 std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constraints) {
@@ -107,8 +107,8 @@ void Multigrid::set_diagonals(const Eigen::VectorXd& finest, float stiffness_fac
       for (const Interpolation::Term& term : fine.interpolation.row(n))
         diagonal[term.node] += term.weight() * fine.system.node_diagonal()[n];
     coarse.set_diagonal(std::move(diagonal), stiffness_factor);
+    coarse.smooth_with(coarse.inertia() < kHardlyAny ? kWithout : kWithInertia);
     const bool little = coarse.inertia() < kLittleInertia;
-    coarse.smooth_with(little ? kWithout : kWithInertia);
     levels_[l].cycles = little && l > 1 && l + 1 < levels_.size() ? 2 : 1;
   }
 }
