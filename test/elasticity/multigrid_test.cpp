@@ -137,6 +137,23 @@ TEST_F(Cycle, NodeBlocksStayUntilElementsHaveTurned) {
   }
 }
 
+/// What a hierarchy keeps from the values before does not show.
+TEST_F(Cycle, FollowsTheValues) {
+  const SingleField r = random(1);
+  const std::vector<std::pair<double, double>> values{{0.5, 1.0}, {80.0, 1.0}, {80.0, 2.0}, {0.0, 2.0}};
+  for (const auto& [diagonal, factor] : values) {
+    const SystemValues now{Eigen::VectorXd::Constant(count, diagonal), factor, &constraints};
+    Multigrid fresh(pool);
+    fresh.arrange(model, held);
+    fresh.set(model.rotations(x), now);
+    multigrid.set(model.rotations(x), now);
+    SingleField expected, z;
+    fresh.precondition(r, expected);
+    multigrid.precondition(r, z);
+    EXPECT_EQ(z, expected) << diagonal << ", " << factor;
+  }
+}
+
 TEST_F(Cycle, FollowsTheModel) {
   SingleField before, after;
   const SingleField r = random(1);
