@@ -3,6 +3,7 @@
 
 #include "cfem_cutting/geometry/polyline.h"
 #include "cfem_cutting/volume/inside.h"
+#include "surface/ball.h"
 #include "surface/tissue.h"
 
 namespace cfem_cutting {
@@ -296,6 +297,11 @@ struct SettledCut {
   }
 };
 
+void expect_same(const TriangleMesh& mesh, const TriangleMesh& expected) {
+  EXPECT_EQ(mesh.vertices, expected.vertices);
+  EXPECT_EQ(mesh.triangles, expected.triangles);
+}
+
 /// What a trace has moved, also beside itself, goes back when it is gone: as if all cells were looked at.
 TEST(Traces, LeaveNothingBehind) {
   SettledCut cut, same;
@@ -305,11 +311,25 @@ TEST(Traces, LeaveNothingBehind) {
     const Vec3 from = Vec3(4.0, 4.0, 3.5) + 2.0 * Vec3::Random(),
                to = Vec3(4.0, 4.0, 3.5) + 4.0 * Vec3::Random();
     visited->extract({line(from, to)});
-    const std::vector<Vec3> there = visited->surface().rest().vertices;
-    visited->extract({});
-    EXPECT_EQ(visited->surface().rest().vertices, other->extract({}).rest().vertices) << "trace " << i;
-    visited->extract({line(from, to)});
-    EXPECT_EQ(visited->surface().rest().vertices, there) << "trace " << i;
+    const TriangleMesh there = visited->surface().rest();
+    expect_same(visited->extract({}).rest(), other->extract({}).rest());
+    expect_same(visited->extract({line(from, to)}).rest(), there);
+  }
+}
+
+/// Cuts beside skin that a trace has moved take the diagonals that they have without it, too.
+TEST(Traces, LeaveNothingBehindWhereCutsMeetTheSkin) {
+  std::srand(5);
+  for (int i = 0; i < 20; ++i) {
+    VoxelVolume volume = VoxelVolume::sample(test::Ball(6.3), Vec3::Ones());
+    for (int cuts = 0; cuts < 2; ++cuts) sever(volume, {2.0 * Vec3::Random(), Vec3::Random().normalized()});
+    SurfaceExtractor visited(volume), other(volume);
+    other.extract({});
+    visited.extract({});
+    for (int k = 0; k < 20; ++k) {
+      visited.extract({line(6.3 * Vec3::Random().normalized(), 6.3 * Vec3::Random().normalized())});
+      expect_same(visited.extract({}).rest(), other.surface().rest());
+    }
   }
 }
 
