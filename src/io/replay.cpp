@@ -160,7 +160,7 @@ RunFigures run_steps(Simulation& simulation, StepSource& steps, const OutputFold
     const StepReport report = simulation.step(*input);
     figures.timing.add(report, milliseconds_since(step_start));
     const FrontFidelity front = simulation.front_fidelity();
-    figures.statistics.add(report, front);
+    figures.statistics.add(report, front, simulation.front().points);
     tables.add(report, front, simulation.probe_displacements());
     surfaces.add(simulation);
     progress.show(figures.statistics.steps * config.dynamics.time_step);
@@ -220,6 +220,7 @@ void run_replay(const ReplayOptions& options, const BagReader& read_bag) {
   if (figures.stopped_by != 0) stop(folder, figures);
   warn(jump_warnings(steps.jumps()), warnings);
   warn(run_warnings(figures.statistics), warnings);
+  if (has_tool) warn(miss_warnings(figures.statistics, simulation.surface()), warnings);
   write_results(folder, simulation, figures, warnings);
   folder.publish();
   std::cout << figures.statistics.steps << " steps in " << figures.wall_time << " s, "

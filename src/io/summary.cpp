@@ -59,6 +59,13 @@ Json cut_face_figures(const CutFaceDistances& distances) {
   return json;
 }
 
+std::string text_of(const Box& box) {
+  char text[160];
+  std::snprintf(text, sizeof(text), "[%.3g, %.3g, %.3g] to [%.3g, %.3g, %.3g]", box.min().x(), box.min().y(),
+                box.min().z(), box.max().x(), box.max().y(), box.max().z());
+  return text;
+}
+
 /// The smallest value that this part of the values does not exceed (nearest rank).
 double percentile(const std::vector<double>& sorted, double part) {
   if (sorted.empty()) return 0.0;
@@ -68,8 +75,9 @@ double percentile(const std::vector<double>& sorted, double part) {
 
 }  // namespace
 
-void RunStatistics::add(const StepReport& report, const FrontFidelity& fidelity) {
+void RunStatistics::add(const StepReport& report, const FrontFidelity& fidelity, const Polyline& edge) {
   front.add(fidelity);
+  for (const Vec3& point : edge) edge_box.extend(point);
   ++steps;
   fracture_events += static_cast<int>(report.events.size());
   for (const FractureEvent& event : report.events) fracture_work += event.fracture_work;
@@ -94,8 +102,17 @@ std::vector<std::string> run_warnings(const RunStatistics& statistics) {
                        " of " + std::to_string(statistics.steps) + " steps");
   if (statistics.steps_with_inverted_elements > 0)
     warnings.push_back("elements were flat or inverted in " +
-                       std::to_string(statistics.steps_with_inverted_elements) + " steps");
+                       std::to_string(statistics.steps_with_inverted_elements) + " of " +
+                       std::to_string(statistics.steps) + " steps");
   return warnings;
+}
+
+std::vector<std::string> miss_warnings(const RunStatistics& statistics, const TissueSurface& tissue) {
+  if (statistics.touched() || statistics.edge_box.isEmpty()) return {};
+  Box tissue_box;
+  for (const SurfaceVertex& vertex : tissue.vertices) tissue_box.extend(vertex.X);
+  return {"the blade's edge touched no tissue: it was within " + text_of(statistics.edge_box) +
+          ", the tissue is within " + text_of(tissue_box) + " (m, tissue frame)"};
 }
 
 void write_summary(const OutputFolder& folder, const Simulation& simulation, const RunStatistics& statistics,

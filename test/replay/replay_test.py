@@ -202,6 +202,13 @@ class Cuts(ReplayTest):
             self.assertEqual(summary["surface"]["flipped"] + summary["surface"]["degenerate"], 0)
 
     @needs_bags
+    def test_blade_that_touches_nothing_is_told(self):
+        summary = self.replay("out", "--bag", bag("straight_slice"), "--set", "blade.edge=[[0.5,0,0],[0.6,0,0]]")
+        self.assertEqual(len(summary["warnings"]), 1, summary["warnings"])
+        for words in ("touched no tissue", "[0, 0, 0] to [0.1, 0.1, 0.05] (m, tissue frame)"):
+            self.assertIn(words, summary["warnings"][0])
+
+    @needs_bags
     def test_bad_poses_in_a_bag_change_nothing(self):
         import rosbag
 

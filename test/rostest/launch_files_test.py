@@ -66,6 +66,14 @@ class LaunchFilesTest(unittest.TestCase):
     def test_path_that_is_not_there(self):
         self.check_end([self.folder + "/none.yaml", "cannot be read"], "path.launch", "path:=none.yaml")
 
+    def test_names_that_begin_at_home(self):
+        home = os.path.expanduser("~")
+        self.check_end([home + "/no/none.bag", "No such file"], "playback.launch", "bag:=~/no/none.bag")
+        self.check_end([home + "/no/none.yaml", "cannot be read"], "path.launch", "path:=~/no/none.yaml")
+
+    def test_place_of_the_tissue_that_is_none(self):
+        self.check_end(["right number of arguments"], "cutting.launch", "world_to_tissue:=1 2 3")
+
     def bag_with_more(self):
         """The slice, and a topic that nobody listens to."""
         path = os.path.join(self.folder, "more.bag")

@@ -11,7 +11,8 @@ namespace cfem_cutting {
 /// Figures over a run, gathered step by step.
 class RunStatistics {
  public:
-  void add(const StepReport& report, const FrontFidelity& fidelity);
+  /// @param edge m, the blade's, in the tissue frame
+  void add(const StepReport& report, const FrontFidelity& fidelity, const Polyline& edge);
 
   FrontFidelity front;
 
@@ -25,6 +26,8 @@ class RunStatistics {
   int unconverged_steps = 0;
   int steps_with_inverted_elements = 0;
   double mean_force() const;  ///< N, over steps in contact
+  bool touched() const { return steps_in_contact_ > 0 || fracture_events > 0; }
+  Box edge_box;  ///< m, where the blade's edge was, in the tissue frame
 
  private:
   int steps_in_contact_ = 0;
@@ -33,6 +36,9 @@ class RunStatistics {
 
 /// What went wrong in a run's steps.
 std::vector<std::string> run_warnings(const RunStatistics& statistics);
+
+/// If the blade moved past all tissue, as with a wrong frame or unit.
+std::vector<std::string> miss_warnings(const RunStatistics& statistics, const TissueSurface& tissue);
 
 /// Writes summary.json; its surface figures are those of the undeformed surface.
 /// @throw FileError
