@@ -71,9 +71,9 @@ def label(text, length):
 def sheet(rows, row_names, column_names):
     """Tiles put together, with white lines in between, names over the columns and, turned, beside the rows."""
     padded = [[numpy.pad(tile, ((2, 2), (2, 2), (0, 0)), constant_values=255) for tile in row] for row in rows]
-    sides = [numpy.rot90(label(name, row[0].shape[0])) for name, row in zip(row_names, padded)]
-    lines = [numpy.hstack([side, *row]) for side, row in zip(sides, padded)]
-    top = [label(name, tile.shape[1]) for name, tile in zip(column_names, padded[0])]
+    sides = [numpy.rot90(label(name, row[0].shape[0])) for name, row in zip(row_names, padded, strict=True)]
+    lines = [numpy.hstack([side, *row]) for side, row in zip(sides, padded, strict=True)]
+    top = [label(name, tile.shape[1]) for name, tile in zip(column_names, padded[0], strict=True)]
     corner = numpy.full((34, 34, 3), 255, numpy.uint8)
     return numpy.vstack([numpy.hstack([corner, *top]), *lines])
 

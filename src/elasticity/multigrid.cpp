@@ -122,7 +122,8 @@ std::vector<Mat3> Multigrid::coarse_rotations(const Level& fine) const {
   const std::vector<Mat3>& rotations = fine.system.product().rotations();
   const ElementParts& parts = fine.parts;
   std::vector<Mat3> coarse(parts.size());
-  pool_.for_range(parts.size(), ElementTiles::kFewest, [&](int begin, int end) {
+  constexpr int kFewest = 256;  // worth waking a thread for
+  pool_.for_range(parts.size(), kFewest, [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
       Mat3 sum = Mat3::Zero();
       for (int i = parts.first[c]; i < parts.first[c + 1]; ++i) sum += rotations[parts.elements[i]];

@@ -11,7 +11,7 @@
 
 namespace cfem_cutting {
 
-/// What changes in a system from solve to solve.
+/// What a system has besides its elements.
 struct SystemValues {
   Eigen::VectorXd node_diagonal;  ///< N/m, added to each axis of a node
   double stiffness_factor = 1.0;
@@ -21,8 +21,8 @@ struct SystemValues {
 /// A symmetric cycle over the composite hierarchy (Dick, Georgii and Westermann 2011): a preconditioner for A
 /// = D + s Σ R K Rᵀ + Σ k (w ⊗ d)(w ⊗ d)ᵀ. Coarse elements have the rest matrices of what is in them
 /// (Galerkin) and the mean of its rotations; the coarsest level is solved directly. Where inertia holds a
-/// coarse level, it is a V-cycle with little work there; otherwise a W-cycle below the second level, and in
-/// statics with more.
+/// coarse level, it is a V-cycle with little work there; otherwise a W-cycle below the second level, and
+/// where there is hardly any with more.
 class Multigrid {
  public:
   explicit Multigrid(ThreadPool& pool) : pool_(pool) {}

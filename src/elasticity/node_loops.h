@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <numeric>
+#include <type_traits>
 #include <vector>
 
 #include "thread_pool.h"

@@ -7,7 +7,7 @@
 
 namespace cfem_cutting {
 
-double shape(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
+double shape_about_axis(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
   const Vec3 area = (b - a).cross(c - a);
   const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   constexpr double kFlat = 1e-9;
@@ -15,22 +15,23 @@ double shape(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
 }
 
 /// The worse of a quad's two triangles about its link, on the diagonal from corner i.
-double Diagonals::worse_shape(const Quad& quad, int i) const {
+double Diagonals::worse_shape(const LinkQuad& quad, int i) const {
   const auto at = [&](int k) -> const Vec3& { return X(quad.corners[k % 4]); };
-  const int axis = quad.direction / 2;
-  return std::min(shape(at(i), at(i + 1), at(i + 2), axis), shape(at(i), at(i + 2), at(i + 3), axis));
+  const int axis = quad.direction() / 2;
+  return std::min(shape_about_axis(at(i), at(i + 1), at(i + 2), axis),
+                  shape_about_axis(at(i), at(i + 2), at(i + 3), axis));
 }
 
-bool Diagonals::is_on_chain(const Quad& quad, int i) const {
+bool Diagonals::is_on_chain(const LinkQuad& quad, int i) const {
   const int a = chain_[quad.corners[i]], b = chain_[quad.corners[i + 2]];
   return a >= 0 && b >= 0 && std::abs(a - b) == 1;
 }
 
-bool Diagonals::chain_misses(const Quad& quad, int i) const {
+bool Diagonals::chain_misses(const LinkQuad& quad, int i) const {
   return is_on_chain(quad, i) && !(worse_shape(quad, i) > 0.0);
 }
 
-bool Diagonals::prefers_second(const Quad& quad) const {
+bool Diagonals::prefers_second(const LinkQuad& quad) const {
   const double first_shape = worse_shape(quad, 0), second_shape = worse_shape(quad, 1);
   if (is_on_chain(quad, 0) && first_shape > 0.0) return false;
   if (is_on_chain(quad, 1) && second_shape > 0.0) return true;
@@ -43,7 +44,7 @@ bool Diagonals::prefers_second(const Quad& quad) const {
 }
 
 /// Of the triangles on the diagonal from corner i, and of those of its twin.
-int Diagonals::meetings_with_skin(const Quad& quad, int i) const {
+int Diagonals::meetings_with_skin(const LinkQuad& quad, int i) const {
   const auto of = [&](const std::array<int, 4>& v) {
     return meetings_with_skin({v[i], v[i + 1], v[i + 2]}) +
            meetings_with_skin({v[i], v[i + 2], v[(i + 3) % 4]});

@@ -9,14 +9,9 @@ void MeshParts::clear() {
   fan_triangles_.clear();
 }
 
-int MeshParts::add(const Quad& quad) {
+int MeshParts::add(const LinkQuad& quad) {
   quads_.push_back(quad);
   return quad_count() - 1;
-}
-
-void MeshParts::pair_up(int a, int b) {
-  quads_[a].twin = b;
-  quads_[b].twin = a;
 }
 
 MeshParts::Triangles MeshParts::triangles(int part) const {
@@ -28,7 +23,7 @@ MeshParts::Triangles MeshParts::triangles(int part) const {
 void MeshParts::sort_by_vertex(int vertices, const std::vector<std::array<int, 3>>& triangles) {
   const auto for_corners = [&](const auto& work) {
     int part = 0;
-    for (const Quad& quad : quads_) {
+    for (const LinkQuad& quad : quads_) {
       for (const int v : quad.corners) work(v, part);
       ++part;
     }

@@ -2,11 +2,20 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "cfem_cutting/volume/inside.h"
 
 namespace cfem_cutting {
 namespace {
+
+/// The side at a severed link's other end, −1 for other links.
+LinkSide side_across(const VoxelVolume& volume, LinkSide side) {
+  const Voxel& voxel = volume.voxel(side / kDirections);
+  const int direction = side % kDirections;
+  if (voxel.link[direction] != LinkState::kSevered) return -1;
+  return kDirections * voxel.neighbour[direction] + opposite(direction);
+}
 
 /// A number for the end of an arc at a side, in a cell's face.
 std::int64_t arc_end_key(const DualCell& cell, LocalSide side, int normal_axis) {
@@ -20,13 +29,13 @@ std::int64_t arc_end_key(const DualCell& cell, LocalSide side, int normal_axis) 
 void Mesher::build(const Contour& contour) {
   surface_ = {};
   parts_.clear();
-  quad_of_side_.clear();
   anchors_.clear();
   chain_.clear();
   adapted_.clear();
   direction_.clear();
   midpoints_.clear();
   midpoint_of_arc_.clear();
+  moved_midpoints_.clear();
   std::array<int, 8> none;
   none.fill(-1);
   vertex_of_sheet_.assign(contour.cells().size(), none);
@@ -35,20 +44,25 @@ void Mesher::build(const Contour& contour) {
   surface_.label.reserve(2 * contour.sides().size());
   parts_.reserve(contour.sides().size());
   for (const LinkSide side : contour.sides()) add_polygon(contour, polygon_of(contour, side));
+  parts_.pair_up([&](LinkSide side) { return side_across(contour.volume(), side); });
   parts_.sort_by_vertex(static_cast<int>(surface_.vertices.size()), surface_.triangles);
   for (const bool cut : {false, true})
     for (int part = 0; part < parts_.quad_count(); ++part)
-      if (is_cut(part) == cut) split(parts_.quad(part));
+      if (is_cut(part) == cut && parts_.quad(part).twin < part) split(part);
 }
 
 /// Those at the vertices of cells, ascending.
 std::vector<int> Mesher::parts_at(const std::vector<int>& cells) const {
   std::vector<int> parts;
+  part_is_taken_.resize(parts_.size(), 0);
   for (const int cell : cells)
-    for (const int v : vertex_of_sheet_[cell])
-      if (v >= 0) parts.insert(parts.end(), parts_.at(v).begin(), parts_.at(v).end());
+    for (const int v : vertex_of_sheet_[cell]) {
+      if (v < 0) continue;
+      for (const int part : parts_.at(v))
+        if (!std::exchange(part_is_taken_[part], 1)) parts.push_back(part);
+    }
+  for (const int part : parts) part_is_taken_[part] = 0;
   std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   return parts;
 }
 
@@ -63,19 +77,10 @@ void Mesher::add_polygon(const Contour& contour, const Polygon& polygon) {
 }
 
 void Mesher::add_quad(const Contour& contour, const Polygon& polygon, const std::vector<int>& corners) {
-  const int quad = parts_.add({{corners[0], corners[1], corners[2], corners[3]},
-                               polygon.direction,
-                               static_cast<int>(surface_.triangles.size())});
+  parts_.add({{corners[0], corners[1], corners[2], corners[3]},
+              kDirections * polygon.voxel + polygon.direction,
+              static_cast<int>(surface_.triangles.size())});
   for (int i : {1, 2}) add_triangle(contour, polygon, corners[0], corners[i], corners[i + 1]);
-  if (is_cut(quad)) note_twin(contour, polygon, quad);
-}
-
-/// The two sides of a severed link have their corners in the same cells, in the same order.
-void Mesher::note_twin(const Contour& contour, const Polygon& polygon, int quad) {
-  const int other = contour.volume().voxel(polygon.voxel).neighbour[polygon.direction];
-  quad_of_side_[kDirections * polygon.voxel + polygon.direction] = quad;
-  const auto twin = quad_of_side_.find(kDirections * other + opposite(polygon.direction));
-  if (twin != quad_of_side_.end()) parts_.pair_up(quad, twin->second);
 }
 
 /// Around a vertex of its own where the link meets the surface: positive, as each corner stays in its cell.
@@ -139,7 +144,7 @@ void Mesher::add_triangle(const Contour& contour, const Polygon& polygon, int a,
 }
 
 void Mesher::place(const Contour& contour, const std::vector<int>& cells) {
-  std::vector<int> moved;
+  std::vector<int> moved = std::exchange(moved_midpoints_, {});
   for (const int cell : cells)
     for (const int v : vertex_of_sheet_[cell])
       if (v >= 0 && move(contour, v)) moved.push_back(v);
@@ -148,24 +153,20 @@ void Mesher::place(const Contour& contour, const std::vector<int>& cells) {
 
 /// Splits the quads at vertices, the skin first, and those of cuts that the skin there may go through.
 void Mesher::split_around(const std::vector<int>& moved) {
-  std::set<int> cut_quads;
+  std::set<int> skin, cut_quads;  // of twins the later
   const auto take = [&](int part) {
-    if (!parts_.is_quad(part) || !is_cut(part)) return;
-    const int twin = parts_.quad(part).twin;
-    cut_quads.insert(part);
-    if (twin >= 0) cut_quads.insert(twin);
+    if (parts_.is_quad(part) && is_cut(part)) cut_quads.insert(std::max(part, parts_.quad(part).twin));
   };
-  std::set<int> skin;
   for (const int v : moved)
     for (const int part : parts_.at(v)) is_cut(part) ? take(part) : void(skin.insert(part));
   for (const int part : skin) {
-    if (parts_.is_quad(part)) split(parts_.quad(part));
+    if (parts_.is_quad(part)) split(part);
     const MeshParts::Triangles triangles = parts_.triangles(part);
     for (int t = triangles.first; t < triangles.end; ++t)
       for (const int v : surface_.triangles[t])
         for (const int beside : parts_.at(v)) take(beside);
   }
-  for (const int part : cut_quads) split(parts_.quad(part));
+  for (const int part : cut_quads) split(part);
 }
 
 /// To where its group is.
@@ -200,7 +201,8 @@ bool Mesher::is_turned(int triangle) const {
   const auto& [a, b, c] = surface_.triangles[triangle];
   const Vec3 &A = surface_.vertices[a].X, &B = surface_.vertices[b].X, &C = surface_.vertices[c].X;
   const int direction = direction_[triangle];
-  return !(direction % 2 ? shape(A, B, C, direction / 2) > 0.0 : shape(A, C, B, direction / 2) > 0.0);
+  return !(direction % 2 ? shape_about_axis(A, B, C, direction / 2) > 0.0
+                         : shape_about_axis(A, C, B, direction / 2) > 0.0);
 }
 
 std::vector<Anchor> Mesher::turned(const std::vector<int>& cells) const {
@@ -211,7 +213,7 @@ std::vector<Anchor> Mesher::turned(const std::vector<int>& cells) const {
   };
   for (const int part : parts_at(cells)) {
     if (parts_.is_quad(part)) {  // the corner opposite may have left no better diagonal
-      const Quad& quad = parts_.quad(part);
+      const LinkQuad& quad = parts_.quad(part);
       if (is_turned(quad.first_triangle) || is_turned(quad.first_triangle + 1)) take(quad.corners);
     } else {
       const int triangle = parts_.triangles(part).first;
@@ -231,7 +233,7 @@ std::vector<std::pair<Anchor, Anchor>> Mesher::missed_diagonals(const std::vecto
   std::vector<std::pair<Anchor, Anchor>> missed;
   for (const int part : parts_at(cells)) {
     if (!parts_.is_quad(part)) break;
-    const Quad& quad = parts_.quad(part);
+    const LinkQuad& quad = parts_.quad(part);
     for (const int i : {0, 1})
       if (diagonals().chain_misses(quad, i))
         missed.emplace_back(anchors_[quad.corners[i]], anchors_[quad.corners[i + 2]]);
@@ -239,15 +241,22 @@ std::vector<std::pair<Anchor, Anchor>> Mesher::missed_diagonals(const std::vecto
   return missed;
 }
 
-void Mesher::split(const Quad& quad) {
+/// On both sides of a cut alike: twins have their corners in the same cells, in the same order.
+void Mesher::split(int part) {
+  const LinkQuad& quad = parts_.quad(part);
+  const bool second = diagonals().prefers_second(quad);
+  write(quad, second);
+  if (quad.twin >= 0) write(parts_.quad(quad.twin), second);
+}
+
+void Mesher::write(const LinkQuad& quad, bool second_diagonal) {
   const auto& [a, b, c, d] = quad.corners;
   const auto write = [&](int offset, int p, int q, int r) {
     surface_.triangles[quad.first_triangle + offset] =
-        quad.direction % 2 ? std::array<int, 3>{p, q, r} : std::array<int, 3>{p, r, q};
+        quad.direction() % 2 ? std::array<int, 3>{p, q, r} : std::array<int, 3>{p, r, q};
   };
-  const bool second = diagonals().prefers_second(quad);
-  second ? write(0, b, c, d) : write(0, a, b, c);
-  second ? write(1, b, d, a) : write(1, a, c, d);
+  second_diagonal ? write(0, b, c, d) : write(0, a, b, c);
+  second_diagonal ? write(1, b, d, a) : write(1, a, c, d);
 }
 
 }  // namespace cfem_cutting

@@ -32,7 +32,12 @@ class Mesher {
     bool at_cut;      ///< an end of the arc is at a severed link
   };
   const std::vector<Midpoint>& midpoints() const { return midpoints_; }
-  void move(int midpoint, const Vec3& X) { surface_.vertices[midpoint].X = X; }
+
+  /// Quads beside it are split again by the next `place`.
+  void move(int midpoint, const Vec3& X) {
+    surface_.vertices[midpoint].X = X;
+    moved_midpoints_.push_back(midpoint);
+  }
 
   /// The vertices with virtual intersection points of fans' triangles that are turned or flat about their
   /// link, and of quads with such triangles, at cells' vertices: each once.
@@ -52,25 +57,26 @@ class Mesher {
   int add_fixed_vertex(const Vec3& X, int voxel, const Vec3i& cell);
   void add_triangle(const Contour& contour, const Polygon& polygon, int a, int b, int c);
   static int voxel_of(const Contour& contour, const Anchor& anchor);
-  void note_twin(const Contour& contour, const Polygon& polygon, int quad);
   std::vector<int> parts_at(const std::vector<int>& cells) const;
   bool move(const Contour& contour, int vertex);
   bool is_turned(int triangle) const;
   bool is_cut(int part) const { return surface_.cut[parts_.triangles(part).first]; }
   void split_around(const std::vector<int>& moved);
-  void split(const Quad& quad);
+  void split(int part);
+  void write(const LinkQuad& quad, bool second_diagonal);
   Diagonals diagonals() const { return {surface_, parts_, chain_}; }
 
   TissueSurface surface_;
   std::vector<int> direction_;  // per triangle: of its link
   MeshParts parts_;
-  std::unordered_map<LinkSide, int> quad_of_side_;   // of severed links
+  mutable std::vector<char> part_is_taken_;          // all 0 between calls
   std::vector<Anchor> anchors_;                      // per vertex; fixed ones have cell −1
   std::vector<int> chain_;                           // per vertex: SheetGroup::chain
   std::vector<char> adapted_;                        // per vertex: it has a virtual intersection point
   std::vector<std::array<int, 8>> vertex_of_sheet_;  // per cell, −1
   std::vector<Midpoint> midpoints_;
   std::unordered_map<std::int64_t, int> midpoint_of_arc_;
+  std::vector<int> moved_midpoints_;  // since the last `place`
 };
 
 }  // namespace cfem_cutting

@@ -33,7 +33,7 @@ class ToolTracker {
   /// Where poses come from, for people.
   std::string source() const;
 
-  /// Who publishes poses on the topic: of more than one they mix.
+  /// How many publish poses on the topic: of more than one they mix. With poses from tf 0.
   int publishers() const { return static_cast<int>(subscriber_.getNumPublishers()); }
 
   void clear() { queue_.clear(); }
