@@ -36,7 +36,7 @@ double ConjugateGradients::reference(const LinearSystem& system, const NodeField
     moves = moves || !dx.col(node).isZero(0.0);
   }
   if (moves) {
-    system.residual(b, last_, residual_);
+    system.residual(b, last_, system.precision(), residual_);
   } else {
     residual_ = b;
     system.clear_held(residual_);
@@ -44,6 +44,13 @@ double ConjugateGradients::reference(const LinearSystem& system, const NodeField
   const double rounding = kRounding * system.multigrid().finest().mean_stiffness() * goal.length *
                           std::sqrt(static_cast<double>(dx.cols()));
   return std::max({norm(pool, residual_), goal.least_load, rounding / goal.tolerance});
+}
+
+/// @return the size of the residual, which it leaves in residual_, N
+double ConjugateGradients::measure(const LinearSystem& system, const NodeField& b, const NodeField& dx,
+                                   Precision precision) {
+  system.residual(b, dx, precision, residual_);
+  return norm(system.multigrid().pool(), residual_);
 }
 
 /// Moves x_ towards A⁻¹ b until its residual r_ is `goal` at most.
@@ -101,10 +108,16 @@ SolveReport ConjugateGradients::solve(const LinearSystem& system, const NodeFiel
   report.converged = false;  // nor if the load is not finite
   last_ = dx;
   auto preconditioner = Preconditioner::kMultigrid;
+  auto precision = system.precision();
   bool broke_down = false;
-  for (double before = std::numeric_limits<double>::infinity();;) {
-    system.residual(b, dx, residual_);
-    const double size = norm(pool, residual_);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (double before = kInfinity;;) {
+    double size = measure(system, b, dx, precision);
+    if (precision == Precision::kSingle && !broke_down && !(size < 0.9 * before)) {
+      precision = Precision::kDouble;
+      before = kInfinity;
+      size = measure(system, b, dx, precision);
+    }
     if (!(size < before) && !(broke_down && size == before)) {  // rounding, or worse
       dx = last_;
       return report;
@@ -116,7 +129,7 @@ SolveReport ConjugateGradients::solve(const LinearSystem& system, const NodeFiel
     r_.resize(4, count);
     for_each_node(pool, count, [&](int n) { r_.col(n) << (residual_.col(n) / size).cast<float>(), 0.0f; });
     set_zero(pool, count, x_);
-    if (changes && std::isinf(before)) changes->minimise(system, r_, x_);
+    if (changes && report.iterations == 0) changes->minimise(system, r_, x_);
     before = size;
     const Outcome outcome =
         reduce(system, preconditioner, std::max(0.8 * goal.tolerance * relative_to / size, kMostReduction),

@@ -13,7 +13,8 @@ struct SolveGoal {
 };
 
 /// Conjugate gradients in single precision, preconditioned by the multigrid cycle, inside iterative
-/// refinement. Keeps its fields from solve to solve.
+/// refinement. Where rounding ends that, as in tissues of very different stiffness, residuals are taken in
+/// double. Keeps its fields from solve to solve.
 class ConjugateGradients {
  public:
   /// Solves A dx = b; held nodes keep their dx. The residual ‖b − A dx‖ over free nodes is relative to the
@@ -35,6 +36,7 @@ class ConjugateGradients {
   static Preconditioner next_after(Preconditioner failed, const LinearSystem& system);
   double reference(const LinearSystem& system, const NodeField& b, const NodeField& dx,
                    const SolveGoal& goal);
+  double measure(const LinearSystem& system, const NodeField& b, const NodeField& dx, Precision precision);
   Outcome reduce(const LinearSystem& system, Preconditioner preconditioner, double goal, int max_iterations);
 
   NodeField last_, residual_;

@@ -9,14 +9,14 @@ LinearSystem::LinearSystem(Multigrid& multigrid, const ElasticModel& model, std:
   multigrid_.set(std::move(rotations), values_);
 }
 
-void LinearSystem::residual(const NodeField& b, const NodeField& x, NodeField& r) const {
+void LinearSystem::residual(const NodeField& b, const NodeField& x, Precision precision, NodeField& r) const {
   r.resize(3, x.cols());
   const auto finish = [&](int n, const auto& sum) {
     r.col(n) = b.col(n) - values_.stiffness_factor * sum.template head<3>().template cast<double>() -
                values_.node_diagonal[n] * x.col(n);
   };
   const ElementProduct& product = multigrid_.finest().product();
-  if (precision_ == Precision::kDouble) {
+  if (precision == Precision::kDouble) {
     product.apply(x, finish);
   } else {
     thread_local SingleField quads;  // keeps its memory

@@ -6,7 +6,7 @@
 
 namespace cfem_cutting {
 
-/// Residuals are taken in double where less is asked for than single precision carries.
+/// Of residuals: double where less is asked for than single precision carries.
 enum class Precision { kSingle, kDouble };
 inline Precision precision_for(double tolerance) {
   return tolerance < 1e-5 ? Precision::kDouble : Precision::kSingle;
@@ -22,7 +22,8 @@ class LinearSystem {
                SystemValues values, const std::vector<int>& held, Precision precision);
 
   /// r = b − A x on the free nodes, zero on the held ones.
-  void residual(const NodeField& b, const NodeField& x, NodeField& r) const;
+  void residual(const NodeField& b, const NodeField& x, Precision precision, NodeField& r) const;
+  Precision precision() const { return precision_; }  ///< to begin with
   const std::vector<int>& held() const { return held_; }
   void clear_held(NodeField& field) const;
   void clear_held(SingleField& field) const;

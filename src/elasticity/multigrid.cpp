@@ -15,7 +15,7 @@ constexpr std::size_t kMostLevels = 12;
 /// Less inertia (see LevelSystem) takes a second cycle, hardly any also more smoothing, for partly filled,
 /// cut and mixed elements.
 constexpr double kLittleInertia = 0.01, kHardlyAny = 0.001;
-constexpr Smoothing kFinest{2, 0.06}, kWithInertia{3, 0.05}, kWithout{5, 0.02};
+constexpr Smoothing kFinest{2, 0.06}, kWithInertia{3, 0.05}, kWithout{7, 0.01};
 
 std::vector<ConstraintRow> rows_of(const std::vector<PointConstraint>& constraints) {
   std::vector<ConstraintRow> rows;

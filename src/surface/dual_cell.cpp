@@ -128,14 +128,11 @@ LocalSide DualCell::arc_end(LocalSide side, int normal_axis) const {
 }
 
 bool is_other_tissue(const VoxelVolume& volume, const DualCell& cell, int group, int voxel) {
-  bool parted = false;
   for (LocalSide side = 0; side < kLocalSides; ++side) {
-    if (!(cell.groups[group].sides >> side & 1)) continue;
-    const int bounded = cell.voxel[side / 3];
-    if (are_joined(volume, bounded, voxel, LinkKind::kIntact)) return false;
-    parted = parted || are_parted(volume, bounded, voxel);
+    const bool bounds = cell.groups[group].sides >> side & 1;
+    if (bounds && !are_parted(volume, cell.voxel[side / 3], voxel)) return false;
   }
-  return parted;
+  return true;
 }
 
 Vec3 onto_skin(const Vec3& X, const VoxelVolume& volume, const DualCell& cell, const SheetGroup& group) {

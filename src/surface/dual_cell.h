@@ -67,7 +67,7 @@ struct DualCell {
   LocalSide arc_end(LocalSide side, int normal_axis) const;
 };
 
-/// Whether tissue that a group bounds is parted from a voxel, and none of it is joined with that.
+/// Whether all tissue that a group bounds is parted from a voxel. (What is too far to tell is not.)
 bool is_other_tissue(const VoxelVolume& volume, const DualCell& cell, int group, int voxel);
 
 /// A point moved onto the skin's planes of a group, if it has skin.

@@ -1,6 +1,8 @@
 #pragma once
 /// Cubes of tissue, 0.1 m across and held at the bottom, whose equilibria tests count and benchmarks time.
 
+#include <limits>
+
 #include "conjugate_gradients.h"
 #include "specimens.h"
 
@@ -44,7 +46,7 @@ inline ElasticModel cube_model(int across, CubeTissue tissue, double cut, double
 }
 
 /// Solves for what the weight does to a cube at rest, to 1e-4 of its load.
-/// @return iterations of conjugate gradients
+/// @return iterations of conjugate gradients; INT_MAX: they did not get there
 inline int count_iterations(const ElasticModel& model) {
   ThreadPool pool(1);
   Multigrid multigrid(pool);
@@ -54,10 +56,9 @@ inline int count_iterations(const ElasticModel& model) {
                             {Eigen::VectorXd::Zero(model.mesh().node_count()), 1.0, &none}, held.nodes,
                             Precision::kSingle);
   NodeField dx = NodeField::Zero(3, model.mesh().node_count());
-  return ConjugateGradients()
-      .solve(system, Vec3(0, 0, -0.1) * model.mass().transpose(), dx,
-             {1e-4, 500, model.mesh().block_size().mean()})
-      .iterations;
+  const SolveReport report = ConjugateGradients().solve(system, Vec3(0, 0, -0.1) * model.mass().transpose(),
+                                                        dx, {1e-4, 500, model.mesh().block_size().mean()});
+  return report.converged ? report.iterations : std::numeric_limits<int>::max();
 }
 
 }  // namespace cfem_cutting

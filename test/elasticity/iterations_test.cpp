@@ -29,5 +29,20 @@ TEST(Iterations, AtMostDoubleForLayersOfFourVoxels) {
               2 * iterations(across, CubeTissue::kUniform, 0.0));
 }
 
+/// Where single precision alone leaves a residual of 1e-3.
+TEST(Iterations, EndOnceStepsHaveConvergedInTissuesOfVeryDifferentStiffness) {
+  for (const CubeTissue tissue : {CubeTissue::kLayers, CubeTissue::kMixture}) {
+    const ElasticModel model = cube_model(32, tissue, 0.0, 0.45);
+    const HeldNodes held = hold_bottom(model.mesh());
+    Integrator integrator({});
+    ElasticState state{model.mesh().rest(), NodeField::Zero(3, model.mesh().node_count())};
+    for (int i = 0; i < 3; ++i) {
+      const SolveReport report = integrator.step(model, state, 0.01, {0, 0, -9.81}, held, {});
+      EXPECT_TRUE(report.converged) << report.residual;
+      EXPECT_LT(report.iterations, 30);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cfem_cutting

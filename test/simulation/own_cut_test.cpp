@@ -113,7 +113,8 @@ TEST(OwnCutDrawn, is_deepened_by_a_second_draw) {
   EXPECT_GT(second.cut_end.count, 100);
   EXPECT_LT(second.cut_end.mean(), 0.01 * config.tissue.voxel_size.x());
   EXPECT_EQ(second.buried, 0);
-  EXPECT_LT(second.covered.mean(), 0.02 * config.tissue.voxel_size.x());
+  EXPECT_LT(second.covered.count, 0.01 * second.cut_end.count) << "a few where the tissue still moves";
+  EXPECT_LT(second.covered.largest, 0.1 * config.tissue.voxel_size.x());
 }
 
 TEST(OwnCutImmediate, is_not_cut_again) {
