@@ -24,8 +24,12 @@ struct SurfaceExtractor::State {
 
 namespace {
 
+/// Whose turn it is to be drawn back: into their cells those beside the trace, then those on it; off the cut
+/// last.
+int turn_of(const SheetGroup& group) { return group.adapted ? 1 : group.times_drawn_back < 2 ? 0 : 2; }
+
 /// Vertices at the ends of a trace, on detours and on the cut leave their cells; where that turns a triangle,
-/// they go back, those on the trace last.
+/// they go back.
 /// @param cells whose vertices may have moved; those with vertices that go back are added
 void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnCut& on_cut,
             std::vector<int>& cells) {
@@ -36,13 +40,11 @@ void unfold(Contour& contour, Mesher& mesher, const SurfaceExtractor::NearestOnC
     const std::vector<Anchor> turned = mesher.turned(near);
     near.clear();
     for (const Anchor& anchor : turned) near.push_back(anchor.cell);
-    for (const bool on_trace : {false, true}) {
-      if (on_trace && !drawn_back.empty()) break;
+    for (int turn = 0; turn < 3 && drawn_back.empty(); ++turn)
       for (const Anchor& anchor : turned)
-        if (contour.cells()[anchor.cell].groups[anchor.group].adapted.has_value() == on_trace &&
+        if (turn_of(contour.cells()[anchor.cell].groups[anchor.group]) == turn &&
             draw_back(contour, anchor.cell, anchor.group, on_cut))
           drawn_back.push_back(anchor.cell);
-    }
     if (drawn_back.empty()) return;
     mesher.place(contour, drawn_back);
     cells.insert(cells.end(), drawn_back.begin(), drawn_back.end());
