@@ -96,7 +96,7 @@ LIVER = Camera(focus=(0.172, 0.036, 0.105), away=(0.58, -0.8, 0.15), distance=0.
 WIDTH = (266, 230)
 MODELS = {  # places of the units shown, camera
     "bunny": ((0.25, 0.75, 1.0), Camera((0.016, 0.008, 0.0), (0.3, 0.6, 1.0), 0.075, WIDTH, up=(0, 1, 0))),
-    "bread": ((0.18, 0.34, 0.5), Camera((0.045, 0.04, 0.045), (-0.35, -1.0, 0.65), 0.19, WIDTH)),
+    "bread": ((0.1, 0.24, 0.42), Camera((0.045, 0.04, 0.045), (-0.35, -1.0, 0.65), 0.19, WIDTH)),
     "steak": ((0.25, 0.55, 1.0), Camera((0.08, 0.035, 0.012), (-0.3, -1.0, 0.8), 0.125, WIDTH)),
 }
 
@@ -118,7 +118,7 @@ def liver(results):
         tiles = [run.tile(surface, LIVER) for surface in (*shown[:3], last)]
         rows.append([inset(tile, close_up(run, surface)) for tile, surface in zip(tiles, shown[:3])] + tiles[3:])
     return sheet(rows, ("immediate", "delayed", "delayed, adaptation"),
-                 ("deforming", "fractured", "deforming, a later unit", "the blade is out"))
+                 ("before a fracture", "after it", "before a later one", "the blade is out"))
 
 
 def models(results):
