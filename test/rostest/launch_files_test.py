@@ -75,7 +75,6 @@ class LaunchFilesTest(unittest.TestCase):
         self.check_end([self.folder + "/a b.bag", "No such file"], "playback.launch", "bag:=a b.bag")
         self.check_end(["/config/paths/none.yaml", "cannot be read"], "path.launch",
                        "path:=package://cfem_cutting/config/paths/none.yaml")
-        self.check_end([self.folder + "/007", "cannot be read"], "path.launch", "path:=007")
 
     def test_place_of_the_tissue_that_is_none(self):
         self.check_end(["right number of arguments"], "cutting.launch", "world_to_tissue:=1 2 3")
