@@ -4,7 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "dual_cell.h"
+#include "cfem_cutting/volume/voxel_volume.h"
 
 namespace cfem_cutting {
 
@@ -13,8 +13,8 @@ struct LinkQuad {
   std::array<int, 4> corners;  ///< counter-clockwise about the link's axis
   int side;                    ///< the link's, see LinkSide
   int first_triangle;          ///< the other is the next
+  int twin = -1;               ///< the quad on the other side of a severed link, −1: none
   int direction() const { return side % kDirections; }
-  int twin = -1;  ///< the quad on the other side of a severed link, −1: none
 };
 
 /// What a surface's triangles belong to: quads, and beyond them single triangles of fans.
@@ -28,6 +28,7 @@ class MeshParts {
   void reserve(std::size_t quads) { quads_.reserve(quads); }
   int add(const LinkQuad& quad);
   void add_fan_triangle(int triangle) { fan_triangles_.push_back(triangle); }
+
   /// Finds the quads on the two sides of links; when all have been added.
   /// @param across gives the side at a severed link's other end, −1 for other links
   template <typename Across>
