@@ -27,6 +27,7 @@ struct Simulation::State {
   void account(StepReport& report);
 
   // Parts of the stages.
+  void place_anew(const Pose& X_TB);
   void meet(const FrontMotion& motion);
   bool is_jump(const Pose& from, const Pose& to) const;
   bool is_in_earlier_cut(const Touch& touch) const;

@@ -17,7 +17,7 @@ void Simulation::State::sweep(const StepInput& input) {
   for (const Pose& X_TB : input.path) {
     if (anew || is_jump(tracker.pose(), X_TB)) {
       leave_tissue();
-      tracker.place_anew(X_TB, *pull_back);
+      place_anew(X_TB);
       motion = Pose::Identity();
       anew = false;
     }
@@ -25,6 +25,14 @@ void Simulation::State::sweep(const StepInput& input) {
     for (const Pose& pose : tracker.subdivide(X_TB)) meet(tracker.move(pose, volume, *pull_back));
     motion = X_TB * before.inverse() * motion;
   }
+}
+
+/// In tissue that is still moving, a front that is set into it stands where it will have come to rest.
+void Simulation::State::place_anew(const Pose& X_TB) {
+  tracker.place_anew(X_TB, *pull_back);
+  if (immediate() || tracker.inside().empty()) return;
+  refresh_reference();
+  tracker.place_anew(X_TB, *pull_back);
 }
 
 /// Collects the links that a motion meets, and binds points of the front that came into tissue.
