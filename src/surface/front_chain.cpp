@@ -100,16 +100,20 @@ class ChainFinder {
       along.push_back(candidate.along);
       if (begins) break;
     }
-    const double head = along.back(), tail = candidates_.length() - along.front();
-    const bool alone = chain.size() == 1;
-    if (!alone || tail <= head)
+    const bool alone = chain.size() == 1, to_tip = goes_to_tip(along.front());
+    if (!alone || to_tip)
       put_at_end(chain.front(), trace_.points.back(), trace_.tip ? EdgeEnd::kTip : EdgeEnd::kNone);
-    if (!alone || tail > head)
+    if (!alone || !to_tip)
       put_at_end(chain.back(), trace_.points.front(), trace_.heel ? EdgeEnd::kHeel : EdgeEnd::kNone);
     std::reverse(chain.begin(), chain.end());
     std::reverse(along.begin(), along.end());
     close_gaps(along, chain);
     return chain;
+  }
+
+  /// To which end of the trace a lone vertex goes: to one in tissue, where the dent is deepest, or the nearer.
+  bool goes_to_tip(double along) const {
+    return trace_.tip != trace_.heel ? trace_.tip : 2.0 * along >= candidates_.length();
   }
 
   /// Neighbours that nothing joins meet halfway, where each goes on the other way; the trace's ends stay.
