@@ -5,7 +5,6 @@
 
 #include "cfem_cutting/geometry/polyline.h"
 #include "cfem_cutting/volume/inside.h"
-#include "polygon.h"
 
 namespace cfem_cutting {
 namespace {
@@ -124,6 +123,14 @@ std::set<LinkSide> ChainCandidates::sides() const {
   return sides;
 }
 
+/// Whether a cut ends on both sides of a face, so that its sides can meet there.
+bool ChainCandidates::is_in_slit(const Polygon& polygon, int i) const {
+  const auto is_cut_end = [&](int corner) {
+    return contour_.cells()[polygon.cell[corner]].groups[polygon.group(contour_, corner)].cut_end;
+  };
+  return polygon.severed && is_cut_end(i) && is_cut_end((i + 1) % 4);
+}
+
 /// By edges and diagonals of the surface.
 void ChainCandidates::join(const std::set<Diagonal>& avoided) {
   joined_.assign(candidates_.size(), {});
@@ -140,7 +147,7 @@ void ChainCandidates::join(const std::set<Diagonal>& avoided) {
     const Polygon polygon = polygon_of(contour_, side);
     if (polygon.lone) continue;
     for (int i = 0; i < 4; ++i)
-      if (!polygon.midpoint[i]) join(polygon, i, (i + 1) % 4);
+      if (!polygon.midpoint[i] || is_in_slit(polygon, i)) join(polygon, i, (i + 1) % 4);
     for (const int i : {0, 1})
       if (!polygon.fan && avoided.count(diagonal_between(group(polygon, i), group(polygon, i + 2))) == 0)
         join(polygon, i, i + 2);

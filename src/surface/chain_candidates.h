@@ -6,6 +6,7 @@
 
 #include "front_chain.h"
 #include "front_walk.h"
+#include "polygon.h"
 
 namespace cfem_cutting {
 
@@ -38,6 +39,7 @@ class ChainCandidates {
   void add_beside();
   Candidate make(int cell, int group, std::size_t piece, const Vec3& X, double cost) const;
   void join(const std::set<Diagonal>& avoided);
+  bool is_in_slit(const Polygon& polygon, int i) const;
   std::set<LinkSide> sides() const;
 
   const Contour& contour_;

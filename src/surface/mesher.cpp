@@ -1,6 +1,7 @@
 #include "mesher.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 #include <utility>
 
@@ -24,6 +25,12 @@ std::int64_t arc_end_key(const DualCell& cell, LocalSide side, int normal_axis) 
   return kDirections * link_side + direction_from(corner, 3 - side % 3 - normal_axis);
 }
 
+/// Along the trace, and both are on it.
+bool chain_goes_on(const SheetGroup& from, const SheetGroup& to) {
+  const auto is_on_trace = [](const SheetGroup& group) { return group.adapted && !group.drawn_back; };
+  return is_on_trace(from) && is_on_trace(to) && std::abs(from.chain - to.chain) == 1;
+}
+
 }  // namespace
 
 void Mesher::build(const Contour& contour) {
@@ -35,7 +42,6 @@ void Mesher::build(const Contour& contour) {
   direction_.clear();
   midpoints_.clear();
   midpoint_of_arc_.clear();
-  moved_midpoints_.clear();
   std::array<int, 8> none;
   none.fill(-1);
   vertex_of_sheet_.assign(contour.cells().size(), none);
@@ -117,10 +123,12 @@ int Mesher::midpoint(const Contour& contour, const Polygon& polygon, int i) {
   const auto crossing = [&](LocalSide s) {
     return contour.volume().crossing(cell.voxel[s / 3], direction_from(s / 3, s % 3)).point;
   };
-  const int vertex =
-      add_fixed_vertex(0.5 * (crossing(side) + crossing(end)), cell.voxel[side / 3], cell.index);
+  const Vec3 X = 0.5 * (crossing(side) + crossing(end));
+  const int vertex = add_fixed_vertex(X, cell.voxel[side / 3], cell.index);
+  const int next = (i + 1) % 4;
   midpoint_of_arc_.emplace(key, vertex);
-  midpoints_.push_back({vertex, polygon.cell[i], polygon.group(contour, i), normal_axis,
+  midpoints_.push_back({vertex, X, polygon.cell[i], polygon.group(contour, i), polygon.cell[next],
+                        polygon.group(contour, next), normal_axis,
                         cell.has_side(across(side)) || cell.has_side(across(end))});
   return vertex;
 }
@@ -144,10 +152,12 @@ void Mesher::add_triangle(const Contour& contour, const Polygon& polygon, int a,
 }
 
 void Mesher::place(const Contour& contour, const std::vector<int>& cells) {
-  std::vector<int> moved = std::exchange(moved_midpoints_, {});
+  std::vector<int> moved;
   for (const int cell : cells)
     for (const int v : vertex_of_sheet_[cell])
       if (v >= 0 && move(contour, v)) moved.push_back(v);
+  for (const Midpoint& midpoint : midpoints_)
+    if (move(contour, midpoint)) moved.push_back(midpoint.vertex);
   split_around(moved);
 }
 
@@ -182,6 +192,19 @@ bool Mesher::move(const Contour& contour, int v) {
   vertex.on_front = group.chain >= 0;
   vertex.edge_end = group.edge_end;
   chain_[v] = group.chain;
+  return true;
+}
+
+/// Where a chain goes through a slit from cell to cell, the slit's sides lie on the chain.
+bool Mesher::move(const Contour& contour, const Midpoint& midpoint) {
+  SurfaceVertex& vertex = surface_.vertices[midpoint.vertex];
+  const SheetGroup& group = contour.cells()[midpoint.cell].groups[midpoint.group];
+  const SheetGroup& next = contour.cells()[midpoint.next_cell].groups[midpoint.next_group];
+  const bool on_chain = midpoint.at_cut && chain_goes_on(group, next);
+  const Vec3 X = on_chain ? Vec3(0.5 * (group.X() + next.X())) : midpoint.X;
+  if (vertex.on_front == on_chain && vertex.X == X) return false;
+  vertex.X = X;
+  vertex.on_front = vertex.cut_end = on_chain;
   return true;
 }
 

@@ -21,23 +21,22 @@ class Mesher {
   /// Vertices and triangles anew.
   void build(const Contour& contour);
 
-  /// Places the vertices of cells, and splits quads again whose corners moved, or the skin beside them.
+  /// Places the vertices of cells and all midpoints, and splits quads again whose corners moved, or the skin beside them.
   void place(const Contour& contour, const std::vector<int>& cells);
 
   /// A vertex of its own in a cell's face, for one of several arcs there between the same two sheets.
   struct Midpoint {
     int vertex;
+    Vec3 X;           ///< m, its place but where a chain passes it
     int cell, group;  ///< of the sheet on one side
+    int next_cell, next_group;
     int normal_axis;  ///< of the face
     bool at_cut;      ///< an end of the arc is at a severed link
   };
   const std::vector<Midpoint>& midpoints() const { return midpoints_; }
 
-  /// Quads beside it are split again by the next `place`.
-  void move(int midpoint, const Vec3& X) {
-    surface_.vertices[midpoint].X = X;
-    moved_midpoints_.push_back(midpoint);
-  }
+  /// It goes there in the next `place`.
+  void move(int midpoint, const Vec3& X) { midpoints_[midpoint].X = X; }
 
   /// The vertices with virtual intersection points of fans' triangles that are turned or flat about their
   /// link, and of quads with such triangles, at cells' vertices: each once.
@@ -59,6 +58,7 @@ class Mesher {
   static int voxel_of(const Contour& contour, const Anchor& anchor);
   std::vector<int> parts_at(const std::vector<int>& cells) const;
   bool move(const Contour& contour, int vertex);
+  bool move(const Contour& contour, const Midpoint& midpoint);
   bool is_turned(int triangle) const;
   bool is_cut(int part) const { return surface_.cut[parts_.triangles(part).first]; }
   void split_around(const std::vector<int>& moved);
@@ -76,7 +76,6 @@ class Mesher {
   std::vector<std::array<int, 8>> vertex_of_sheet_;  // per cell, −1
   std::vector<Midpoint> midpoints_;
   std::unordered_map<std::int64_t, int> midpoint_of_arc_;
-  std::vector<int> moved_midpoints_;  // since the last `place`
 };
 
 }  // namespace cfem_cutting

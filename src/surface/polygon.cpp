@@ -25,7 +25,8 @@ bool same_sheet_across(const DualCell& cell, LocalSide side) {
 
 /// Polygons with midpoints, and those that would share a diagonal with the link's other side, become fans.
 Polygon polygon_of(const Contour& contour, LinkSide side) {
-  Polygon polygon{side / kDirections, side % kDirections, {}, {}, {}, {}, true, false};
+  Polygon polygon{side / kDirections, side % kDirections, {}, {}, {}, {}, true, false, false};
+  polygon.severed = contour.volume().voxel(polygon.voxel).link[polygon.direction] == LinkState::kSevered;
   const std::array<Vec3i, 4> around = contour.cells_around(polygon.voxel, polygon.direction);
   std::array<bool, 4> shared;
   for (int i = 0; i < 4; ++i) {

@@ -13,6 +13,7 @@ struct Polygon {
   std::array<int, 4> sheet;
   std::array<bool, 4> midpoint;  ///< corner i and the next are joined over a vertex of their own
   bool lone;                     ///< no severed neighbour: its sheets hold only its two sides, it isn't drawn
+  bool severed;                  ///< the link
   bool fan;                      ///< around a vertex of its own on the link; else two triangles
 
   int group(const Contour& contour, int i) const { return contour.cells()[cell[i]].sheets[sheet[i]].group; }

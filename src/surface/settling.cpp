@@ -56,17 +56,18 @@ void settle_on_cut(Contour& contour, const NearestOnCut& nearest) {
 }
 
 void settle_midpoints(const Contour& contour, Mesher& mesher, const NearestOnCut& nearest) {
-  for (const Mesher::Midpoint& midpoint : mesher.midpoints()) {
+  for (int m = 0; m < static_cast<int>(mesher.midpoints().size()); ++m) {
+    const Mesher::Midpoint& midpoint = mesher.midpoints()[m];
     const DualCell& cell = contour.cells()[midpoint.cell];
     const SheetGroup& group = cell.groups[midpoint.group];
     if (!midpoint.at_cut || cell.groups.size() != 1) continue;
-    const Vec3 start = mesher.surface().vertices[midpoint.vertex].X;
+    const Vec3 start = midpoint.X;
     const Box room = room_in_face(contour, midpoint, start);
     const auto onto_its_skin = [&](const Vec3& X) {
       return into(room, onto_skin(X, contour.volume(), cell, group));
     };
     const std::optional<Vec3> X = to_cut_and(contour, start, nearest, onto_its_skin);
-    if (X) mesher.move(midpoint.vertex, into(room, *X));
+    if (X) mesher.move(m, into(room, *X));
   }
 }
 
