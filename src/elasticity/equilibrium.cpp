@@ -13,7 +13,9 @@ constexpr double kNegligibleForce = 1e-6;  // of E h²
 constexpr double kLoosestSolve = 0.1;      // inner tolerance
 constexpr double kPartOfFirst = 1e-2;      // of the first residual: what residuals are relative to at least
 constexpr double kTightestSolve = 1e-13;
-constexpr double kGoodGain = 0.7;  // of the forces' size: steps that gain less tell nothing of the tangent
+// Steps that gain less of the forces' size tell nothing of the tangent, but near equilibrium (residual), where
+// little gain is the tangent's fault.
+constexpr double kGoodGain = 0.7, kNear = 1e-2;
 
 /// Of a Newton step's solve: as loose as the last step was poor (Eisenstat and Walker 1996, choice 2), and no
 /// tighter than the whole needs.
@@ -105,7 +107,7 @@ SolveReport Equilibrium::solve_newton(Multigrid& multigrid, ConjugateGradients& 
     total.converged = held_in_place && (total.residual <= options.tolerance || size <= rounding(x));
     if (total.converged || newton == max_newton) return total;
     const double gain = newton > 0 ? size / last_f.norm() : 1.0;
-    if (last_x.cols() > 0 && gain < kGoodGain) {
+    if (last_x.cols() > 0 && gain < (total.residual < kNear ? 1.0 : kGoodGain)) {
       secants_.add(x - last_x, last_f - f);
     } else {
       secants_.clear();
