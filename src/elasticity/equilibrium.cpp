@@ -107,7 +107,7 @@ SolveReport Equilibrium::solve_newton(Multigrid& multigrid, ConjugateGradients& 
     total.converged = held_in_place && (total.residual <= options.tolerance || size <= rounding(x));
     if (total.converged || newton == max_newton) return total;
     const double gain = newton > 0 ? size / last_f.norm() : 1.0;
-    if (last_x.cols() > 0 && gain < (total.residual < kNear ? 1.0 : kGoodGain)) {
+    if (last_x.cols() > 0 && (total.residual < kNear || gain < kGoodGain)) {
       secants_.add(x - last_x, last_f - f);
     } else {
       secants_.clear();

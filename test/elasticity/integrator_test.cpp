@@ -134,6 +134,17 @@ TEST(Equilibrium, ReturnsAtOnceWhereItAlreadyIs) {
   EXPECT_EQ(x, settled);
 }
 
+// The tangent leaves out how forces turn with the rotations: by it alone steps gain less and less.
+TEST(Equilibrium, LongThinBarIsFoundInFewSteps) {
+  const VoxelVolume volume = box_volume({0.16, 0.02, 0.02}, 0.005);
+  const ElasticModel model(volume, 0, {soft(0.3)}, ElementKind::kIncompatibleModes,
+                           Kinematics::kCorotational);
+  const HeldNodes held = hold_where(model.mesh(), [](const Vec3& X) { return X.x() < 1e-9; });
+  NodeField x = model.mesh().rest();
+  Integrator integrator(precise());
+  EXPECT_TRUE(integrator.equilibrate(model, x, {0, 0, -1.0}, held, {}, 60).converged);
+}
+
 TEST(Equilibrium, FloatingPieceStays) {
   VoxelVolume volume = box_volume({0.04, 0.04, 0.04}, 0.01);
   sever_plane(volume, {0.0, 0.0, 0.02}, Vec3::UnitZ());
