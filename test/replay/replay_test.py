@@ -162,12 +162,15 @@ class Cuts(ReplayTest):
         self.assertLess(summary["cut_faces"]["max_m"], 0.2 * 0.002)
 
     def test_crease_and_cut_end_are_on_the_edge_on_liver_and_bunny(self):
-        # Straight edges in the tissue's frame: across the liver's front, across the bunny, and with the tip in its back.
+        # Straight edges in the tissue's frame: across the liver's front, with the tip in it from the first pose on, across the
+        # bunny, and with the tip in its back.
         across = ["blade.edge=[[0,0,0],[0,0.0199,0.199]]", "blade.back=[0,-1,0]"]
+        stab = ["blade.edge=[[0,0,0],[0,0.02425,0.014]]", "blade.back=[0,-0.5,0.866]"]
         tip = ["blade.edge=[[0,0,0],[0,-0.01582,0.0231]]", "blade.back=[0,0.825,0.565]"]
         over = ["blade.edge=[[0,0,0],[0.1193,0.00597,0.01193]]", "blade.back=[0,1,0]"]
         cuts = (("liver", 0.008, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
                 ("liver", 0.004, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
+                ("liver", 0.004, stab, [(0.172, 0.009, 0.128), (0.172, 0.024, 0.128), (0.172, 0.024, 0.092)]),
                 ("bunny", 0.004, over, [(-0.06, 0.05, -0.012), (-0.06, 0.0, -0.012)]),
                 ("bunny", 0.004, tip, [(0.02, 0.036, 0.012), (0.02, 0.018, 0.01), (0.02, 0.017, -0.04)]))
         for config, voxel, blade, waypoints in cuts:
@@ -178,6 +181,8 @@ class Cuts(ReplayTest):
             for part in ("crease", "cut_end", "vertices"):
                 self.assertGreater(summary["front"][part]["samples"], 100, (config, voxel, part))
                 self.assertLess(summary["front"][part]["max_m"], 0.01 * voxel, (config, voxel, part))
+            if blade is not over:  # its ears lap over the edge when they are cut off
+                self.assertEqual(summary["front"]["covered"]["samples"], 0, (config, voxel))
             self.assertEqual(summary["surface"]["flipped"] + summary["surface"]["degenerate"], 0)
             self.assertGreater(summary["cut_faces"]["samples"], 100)
             self.assertIn("max_m", summary["cut_faces"]["held_corners"])

@@ -94,6 +94,11 @@ std::vector<Cut> cuts() {
                    voxel,
                    Vec3(0.0, 0.0151, -0.0235),
                    {at(0.0331, 0.0119, 0.0565), at(0.0331, 0.0119, 0.0355), at(0.0331, -0.006, 0.0355)}});
+  // At first so little of the edge is in tissue that a single vertex is on it.
+  all.push_back({"tip_first",
+                 0.002,
+                 Vec3(0.0049, 0.0246, -0.0123),
+                 {at(0.03, 0.01, 0.047), at(0.03, 0.01, 0.031), at(0.026, 0.0025, 0.03)}});
   return all;
 }
 

@@ -173,6 +173,28 @@ TEST_F(Stab, frozen_stays_with_its_tissue_whatever_passes_and_is_cut_elsewhere) 
   EXPECT_EQ(at_tip->voxel, tissue_voxel_at(volume, tip));
 }
 
+/// A slit through one row of links at the skin ends in the cells on both sides of them.
+TEST(Slit, is_followed_from_cell_to_cell) {
+  VoxelVolume volume = box_volume({8, 8, 6});
+  sever(volume, Plane{{4.2, 0, 0}, Vec3::UnitX()},
+        [](const Vec3& X) { return std::abs(X.y() - 3.5) < 0.1 && X.z() > 4.8; });
+  const Vec3 heel(4.2, 2.9, 5.9);
+  for (const double y : {3.4, 3.6, 3.9}) {
+    const Vec3 tip(4.2, y, 5.4);
+    Trace trace{line(heel, tip)};
+    trace.tip = true;
+    SurfaceExtractor extractor(volume);
+    const TissueSurface& surface = extractor.extract({trace});
+    const std::vector<Vec3> points = on_front(surface);
+    for (const Vec3& end : {heel, tip}) EXPECT_EQ(std::count(points.begin(), points.end(), end), 1) << y;
+    for (const Vec3& X : points) EXPECT_LT(project({heel, tip}, X).distance, 1e-9) << y;
+    expect_closed_and_manifold(surface.rest(), "slit");
+    EXPECT_EQ(count_flipped(surface), 0);
+    extractor.extract({});
+    EXPECT_EQ(surface.rest().vertices, SurfaceExtractor(volume).extract({}).rest().vertices);
+  }
+}
+
 /// How far cut vertices are from their plane, at most. It leaves the skin at y = 6 beyond the cells whose
 /// links it severs there.
 /// @param freezes the cut's end was on the front
