@@ -13,8 +13,8 @@ constexpr double kNegligibleForce = 1e-6;  // of E h²
 constexpr double kLoosestSolve = 0.1;      // inner tolerance
 constexpr double kPartOfFirst = 1e-2;      // of the first residual: what residuals are relative to at least
 constexpr double kTightestSolve = 1e-13;
-// Steps that gain less of the forces' size tell nothing of the tangent, but near equilibrium (residual), where
-// little gain is the tangent's fault.
+// Steps that gain less of the forces' size tell nothing of the tangent, but near equilibrium (residual),
+// where little gain is the tangent's fault.
 constexpr double kGoodGain = 0.7, kNear = 1e-2;
 
 /// Of a Newton step's solve: as loose as the last step was poor (Eisenstat and Walker 1996, choice 2), and no

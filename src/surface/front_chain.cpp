@@ -111,7 +111,8 @@ class ChainFinder {
     return chain;
   }
 
-  /// To which end of the trace a lone vertex goes: to one in tissue, where the dent is deepest, or the nearer.
+  /// To which end of the trace a lone vertex goes: to one in tissue, where the dent is deepest, or the
+  /// nearer.
   bool goes_to_tip(double along) const {
     return trace_.tip != trace_.heel ? trace_.tip : 2.0 * along >= candidates_.length();
   }

@@ -21,7 +21,8 @@ class Mesher {
   /// Vertices and triangles anew.
   void build(const Contour& contour);
 
-  /// Places the vertices of cells and all midpoints, and splits quads again whose corners moved, or the skin beside them.
+  /// Places the vertices of cells and all midpoints, and splits quads again whose corners moved, or the skin
+  /// beside them.
   void place(const Contour& contour, const std::vector<int>& cells);
 
   /// A vertex of its own in a cell's face, for one of several arcs there between the same two sheets.

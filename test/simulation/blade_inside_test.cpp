@@ -94,5 +94,18 @@ TEST_P(FirstPoseInside, cuts_nothing_and_then_only_ahead) {
 INSTANTIATE_TEST_SUITE_P(modes, FirstPoseInside,
                          testing::Values(FractureMode::kImmediate, FractureMode::kDelayed));
 
+TEST(FirstPoseInside, of_sagging_tissue_is_held_from_the_first_step_on) {
+  SimulationConfig config = standing_box();
+  config.tissue.gravity = Vec3(0, 0, -9.81);
+  Simulation simulation = make_simulation(config);
+  const Pose pose = at(0.0331, 0.016, 0.031);
+  drive(simulation, {pose, pose, pose}, kSpeed, [&](const StepReport& report) {
+    const FrontFidelity fidelity = simulation.front_fidelity();
+    EXPECT_GT(fidelity.crease.count, 50) << report.time;
+    EXPECT_LT(fidelity.crease.largest, 0.01 * 0.004) << report.time;
+    EXPECT_EQ(fidelity.covered.count + fidelity.buried, 0) << report.time;
+  });
+}
+
 }  // namespace
 }  // namespace cfem_cutting
