@@ -30,7 +30,7 @@ struct Simulation::State {
   void place_anew(const Pose& X_TB);
   void meet(const FrontMotion& motion);
   bool is_jump(const Pose& from, const Pose& to) const;
-  bool is_in_earlier_cut(const Touch& touch) const;
+  bool is_in_earlier_cut(const Touch& touch, const Vec3& way = Vec3::Zero()) const;
   MaterialPoint pushed_in(const Touch& touch, const std::vector<Dent>& dents) const;
   std::vector<Dent> find_dents() const;
   double pushed_by_front(const EdgeContactPoint& p) const;

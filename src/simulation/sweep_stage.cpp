@@ -44,7 +44,8 @@ void Simulation::State::meet(const FrontMotion& moved) {
   const std::vector<Dent> dents = find_dents();
   for (const Touch& touch : moved.touches) {
     if (contact.covers(touch.along) || is_in_earlier_cut(touch)) continue;
-    bind(pushed_in(touch, dents), touch.along);
+    const MaterialPoint place = pushed_in(touch, dents);
+    if (!is_in_earlier_cut(touch, place.X - touch.X)) bind(place, touch.along);
   }
   if (first_touch && !contact.empty()) refresh_reference();
   release_left_points();
@@ -94,10 +95,11 @@ std::vector<Dent> Simulation::State::find_dents() const {
 }
 
 /// A cut that was there before this fracture goes on ahead of the edge.
-bool Simulation::State::is_in_earlier_cut(const Touch& touch) const {
+/// @param way m, in the tissue, from the touch to what the blade meets there
+bool Simulation::State::is_in_earlier_cut(const Touch& touch, const Vec3& way) const {
   const double near = 0.25 * volume.lattice().spacing.minCoeff();
   const auto ahead = (*pull_back)(touch.on_edge + near * push());
-  return ahead && cut_surface.distance(ahead->X, near) <= near;
+  return ahead && cut_surface.distance(ahead->X + way, near) <= near;
 }
 
 /// What the blade meets at a touch. Beside dents it has pushed the tissue in as far as there.
