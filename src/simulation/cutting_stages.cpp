@@ -21,7 +21,7 @@ double Simulation::State::contact_offset(const OffsetField& offsets) const {
 
 Fracture Simulation::State::judge() {
   const OffsetField offsets = offset_field();
-  unit.measure(volume, offsets, tracker.runs_inside(), push(), block);
+  unit.measure(volume, offsets, tracker.runs_near(), push(), block);
   unit.largest_offset = contact_offset(offsets);
   Fracture fracture = decide(config.fracture, unit.candidates(), unit.largest_offset, block);
   // What still springs back from the last fracture is not loaded by the blade.

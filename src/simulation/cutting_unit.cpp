@@ -1,6 +1,7 @@
 #include "cfem_cutting/simulation/cutting_unit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "cfem_cutting/geometry/polyline.h"
@@ -42,7 +43,7 @@ void CuttingUnit::measure(const VoxelVolume& volume, const OffsetField& offsets,
     const int b = volume.voxel(a).neighbour[2 * c.crossing.link.axis + 1];
     c.offset = std::max(offsets.offset(a, volume.centre(a)), offsets.offset(b, volume.centre(b)));
     const std::optional<Vec3> nearest = nearest_on(front, c.crossing.at.point);
-    if (!nearest) continue;
+    if (!nearest || std::isinf(c.passed_by)) continue;
     const Vec3 way = *nearest - c.crossing.at.point;
     const bool passed = way.dot(push) > 0.0;
     c.passed_by = passed ? way.norm() : 0.0;

@@ -101,16 +101,25 @@ double FrontTracker::length_beyond(double along, int step) const {
   return step > 0 ? arc_lengths(front_.points).back() - along : along;
 }
 
-std::vector<Polyline> FrontTracker::runs_inside() const {
+template <typename Predicate>
+std::vector<Polyline> FrontTracker::runs_where(const Predicate& belongs) const {
   std::vector<Polyline> runs;
   bool running = false;
   for (const auto& point : material_) {
-    const bool inside = point && point->inside;
-    if (inside && !running) runs.emplace_back();
-    if (inside) runs.back().push_back(point->X);
-    running = inside;
+    const bool goes_on = point && belongs(*point);
+    if (goes_on && !running) runs.emplace_back();
+    if (goes_on) runs.back().push_back(point->X);
+    running = goes_on;
   }
   return runs;
+}
+
+std::vector<Polyline> FrontTracker::runs_inside() const {
+  return runs_where([](const MaterialPoint& point) { return point.inside; });
+}
+
+std::vector<Polyline> FrontTracker::runs_near() const {
+  return runs_where([](const MaterialPoint&) { return true; });
 }
 
 MaterialFront FrontTracker::pull_back(const Front& front, const InverseMap& reference) const {

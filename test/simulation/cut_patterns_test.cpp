@@ -121,6 +121,20 @@ TEST(CutPatterns, four_cuts_can_leave_dust) {
   expect_sound(simulation);
 }
 
+class Slash : public testing::TestWithParam<int> {};
+
+TEST_P(Slash, through_thin_tissue_parts_it_however_few_steps_it_takes) {
+  SimulationConfig config = sheet_config();
+  config.tissue.box_size.z() = 0.008;
+  Simulation simulation = make_simulation(config, kLong);
+  const Pose above = at(0.0241, 0.0241, 0.01), below = at(0.0241, 0.0241, -0.006);
+  test::drive(simulation, {above, below, below}, 0.016 / (GetParam() * config.dynamics.time_step));
+  EXPECT_EQ(simulation.pieces().count(), 2);
+  expect_sound(simulation);
+}
+
+INSTANTIATE_TEST_SUITE_P(steps, Slash, testing::Values(1, 2, 3, 10));
+
 class ThinSlice : public testing::TestWithParam<double> {};
 
 TEST_P(ThinSlice, comes_off_only_if_it_holds_voxel_centres) {

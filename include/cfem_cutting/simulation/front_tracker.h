@@ -76,7 +76,12 @@ class FrontTracker {
   /// The front's runs inside tissue, in material space.
   std::vector<Polyline> runs_inside() const;
 
+  /// The front's runs in and beside tissue, in material space.
+  std::vector<Polyline> runs_near() const;
+
  private:
+  template <typename Predicate>
+  std::vector<Polyline> runs_where(const Predicate& belongs) const;
   int segment_at(double along) const;
   MaterialFront pull_back(const Front& front, const InverseMap& reference) const;
 
