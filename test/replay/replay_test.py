@@ -20,6 +20,8 @@ import unittest
 REPLAY, PACKAGE = sys.argv[1:3]
 WITH_BAGS = "--bags" in sys.argv
 BOX = os.path.join(PACKAGE, "config", "gelatine_box.yaml")
+# The bunny as its mesh is, with y upwards, held at its feet only.
+BUNNY = ["tissue.rpy=[0,0,0]", "tissue.fixed=[{box: {min: [-1,-1,-1], max: [1,-0.045,1]}}]", "tissue.composite_level=1"]
 OPEN_MESH = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n"
 needs_bags = unittest.skipUnless(WITH_BAGS, "built without ROS")
 
@@ -166,8 +168,8 @@ class Cuts(ReplayTest):
         # bunny, and with the tip in its back.
         across = ["blade.edge=[[0,0,0],[0,0.0199,0.199]]", "blade.back=[0,-1,0]"]
         stab = ["blade.edge=[[0,0,0],[0,0.02425,0.014]]", "blade.back=[0,-0.5,0.866]"]
-        tip = ["blade.edge=[[0,0,0],[0,-0.01582,0.0231]]", "blade.back=[0,0.825,0.565]"]
-        over = ["blade.edge=[[0,0,0],[0.1193,0.00597,0.01193]]", "blade.back=[0,1,0]"]
+        tip = BUNNY + ["blade.edge=[[0,0,0],[0,-0.01582,0.0231]]", "blade.back=[0,0.825,0.565]"]
+        over = BUNNY + ["blade.edge=[[0,0,0],[0.1193,0.00597,0.01193]]", "blade.back=[0,1,0]"]
         cuts = (("liver", 0.008, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
                 ("liver", 0.004, across, [(0.173, -0.01, 0.02), (0.173, 0.03, 0.02)]),
                 ("liver", 0.004, stab, [(0.172, 0.009, 0.128), (0.172, 0.024, 0.128), (0.172, 0.024, 0.092)]),
@@ -198,7 +200,7 @@ class Cuts(ReplayTest):
                 (0.004, [0.11960630, -0.00340280, 0.00909689], (-0.05862819, -0.01115017), (0.04933586, -0.00066414), 0.015))
         for i, (voxel, edge, (x, z), heights, speed) in enumerate(cuts):
             write_path(self.path("poses.csv"), [(x, y, z) for y in heights], speed)
-            settings = ["blade.edge=[[0,0,0],%s]" % edge, "blade.back=[0,1,0]", "tissue.voxel_size=%g" % voxel]
+            settings = BUNNY + ["blade.edge=[[0,0,0],%s]" % edge, "blade.back=[0,1,0]", "tissue.voxel_size=%g" % voxel]
             summary = self.replay("out%d" % i, "--poses", self.path("poses.csv"), *[o for s in settings for o in ("--set", s)],
                                   config=os.path.join(PACKAGE, "config", "bunny.yaml"))
             for part in ("crease", "cut_end"):
