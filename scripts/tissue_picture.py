@@ -6,7 +6,7 @@ import numpy
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-SKIN, CUT_FACE, BLADE = (0.62, 0.20, 0.16), (0.88, 0.36, 0.34), (0.75, 0.78, 0.82)  # as in src/ros/markers.cpp
+SKIN, CUT_FACE, BLADE = (0.54, 0.16, 0.13), (0.88, 0.36, 0.34), (0.75, 0.78, 0.82)  # as in src/ros/markers.cpp
 BLADE_HEIGHT = 0.008  # m, likewise
 BACKGROUND = (0.92, 0.93, 0.95)  # as in rviz/
 TRACE = (0.1, 0.85, 0.2)

@@ -18,7 +18,7 @@ from geometry_msgs.msg import WrenchStamped
 
 PATIENCE = 60.0  # s, for the next step
 DENT = 0.0025  # m, largest offset that is worth a picture
-COLOURS = {"skin": (0.62, 0.20, 0.16), "cut face": (0.88, 0.36, 0.34)}  # as in src/ros/markers.cpp
+COLOURS = {"skin": (0.54, 0.16, 0.13), "cut face": (0.88, 0.36, 0.34)}  # as in src/ros/markers.cpp
 
 
 def take_picture(path):

@@ -117,7 +117,7 @@ visualization_msgs::MarkerArray to_markers(const Scene& scene, const std::string
   Marker cut_faces = make_marker(MarkerId::kCutFaces, "cut_faces", Marker::TRIANGLE_LIST, header);
   Marker blade = make_marker(MarkerId::kBlade, "blade", Marker::TRIANGLE_LIST, header);
   Marker force = make_marker(MarkerId::kForce, "force", Marker::ARROW, header);
-  skin.color = colour(0.62, 0.20, 0.16);
+  skin.color = colour(0.54, 0.16, 0.13);
   cut_faces.color = colour(0.88, 0.36, 0.34);
   blade.color = colour(0.75, 0.78, 0.82);
   force.color = colour(0.10, 0.45, 0.85);
