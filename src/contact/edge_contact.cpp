@@ -46,6 +46,7 @@ void EdgeContact::follow(const Front& front, const Pose& motion, const Composite
     p.push = (-front.back + front.back.dot(at.tangent) * at.tangent).normalized();
     p.slip = (at.point - motion.inverse() * at.point).dot(at.tangent);
     p.active = p.active || p.push.dot(p.on_edge - x_T) > 0.0;
+    p.at_cut_end = false;
     return beyond_ends(front.points, at) > 0.5 * spacing_;
   });
   std::stable_sort(points_.begin(), points_.end(),

@@ -6,7 +6,6 @@ Usage: play_bag.py BAG POSE_TOPIC [OPTION of rosbag play]..."""
 
 import os
 import signal
-import subprocess
 import sys
 
 import rosbag
@@ -62,11 +61,9 @@ def main(path, pose_topic, *options):
     inputs = {check(path, topics, pose_topic), "/tf", "/tf_static"}
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     played = sorted(topics[topic][0] for topic in inputs if topic in topics)
-    # rosrun and not the program rosbag, which does not hand on the node's name.
-    status = subprocess.call(["rosrun", "rosbag", "play", path, *options, "--topics", *played])
-    if status != 0:
-        fail(path, f"rosbag play failed with exit code {status}")
-    signal.pause()
+    # rosrun and not the program rosbag, which does not hand on the node's name. In this process' place, so that signals
+    # reach it; it stays, or its last messages might be lost.
+    os.execvp("rosrun", ["rosrun", "rosbag", "play", path, *options, "--keep-alive", "--topics", *played])
 
 
 if __name__ == "__main__":

@@ -73,7 +73,7 @@ bool is_cut_between(const VoxelVolume& volume, const EdgeContactPoint& a, const 
 /// The blade pushes at it; or it would if the tissue had come to rest, as after a fracture; or the cut has
 /// just ended there, from where the tissue may spring ahead.
 bool Simulation::State::holds(const EdgeContactPoint& p) const {
-  if (p.active || p.X == tracker.material_at(p.along)) return true;
+  if (p.active || p.at_cut_end) return true;
   return pushed_by_front(p) >= -1e-3 * volume.lattice().spacing.minCoeff();
 }
 

@@ -36,7 +36,7 @@ struct Simulation::State {
   double pushed_by_front(const EdgeContactPoint& p) const;
   void forget_dent(const EdgeContactPoint& p);
   void leave_tissue();
-  void bind(const MaterialPoint& place, double along);
+  void bind(const MaterialPoint& place, double along, bool at_cut_end);
   void release_left_points();
   void come_out();
   bool is_out() const { return contact.empty() && tracker.inside().empty(); }

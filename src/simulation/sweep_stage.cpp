@@ -45,18 +45,19 @@ void Simulation::State::meet(const FrontMotion& moved) {
   for (const Touch& touch : moved.touches) {
     if (contact.covers(touch.along) || is_in_earlier_cut(touch)) continue;
     const MaterialPoint place = pushed_in(touch, dents);
-    if (!is_in_earlier_cut(touch, place.X - touch.X)) bind(place, touch.along);
+    if (!is_in_earlier_cut(touch, place.X - touch.X)) bind(place, touch.along, false);
   }
   if (first_touch && !contact.empty()) refresh_reference();
   release_left_points();
   if (is_out()) come_out();
 }
 
-void Simulation::State::bind(const MaterialPoint& place, double along) {
+void Simulation::State::bind(const MaterialPoint& place, double along, bool at_cut_end) {
   EdgeContactPoint point;
   point.X = place.X;
   point.voxel = place.voxel;
   point.along = along;
+  point.at_cut_end = at_cut_end;
   contact.bind(point);
 }
 

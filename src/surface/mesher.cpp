@@ -25,10 +25,8 @@ std::int64_t arc_end_key(const DualCell& cell, LocalSide side, int normal_axis) 
   return kDirections * link_side + direction_from(corner, 3 - side % 3 - normal_axis);
 }
 
-/// Along the trace, and both are on it.
 bool chain_goes_on(const SheetGroup& from, const SheetGroup& to) {
-  const auto is_on_trace = [](const SheetGroup& group) { return group.adapted && !group.drawn_back; };
-  return is_on_trace(from) && is_on_trace(to) && std::abs(from.chain - to.chain) == 1;
+  return from.adapted && to.adapted && std::abs(from.chain - to.chain) == 1;
 }
 
 }  // namespace

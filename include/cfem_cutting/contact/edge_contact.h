@@ -20,6 +20,7 @@ struct EdgeContactPoint {
   Vec3 force = Vec3::Zero();     ///< N, on the tissue
   double slip = 0.0;             ///< m, the edge's way along the tangent in this step, for friction
   bool active = false;           ///< the blade pushes at it; else the tissue is still ahead of the blade
+  bool at_cut_end = false;       ///< bound in this step, where a cut has just ended
 };
 
 /// Unilateral contact of the edge. A bound point becomes active when the blade reaches it: then it is held on
