@@ -13,6 +13,8 @@ using Candidate = ChainCandidates::Candidate;
 
 // What a chain costs, in voxel edges of stretch, besides its candidates.
 constexpr double kBreak = 3.0;      // for vertices that nothing joins
+constexpr double kGap = 10.0;       // for each voxel between them, but for the first half
+constexpr double kBeyond = 2.0;     // for each voxel beyond the first and the last, but for half of one
 constexpr double kUncovered = 5.0;  // for each voxel of the trace's length, where one vertex stands for all
 constexpr double kNearest = 0.005;  // of a voxel, between vertices
 constexpr double kWidestGap = 1.0;  // in voxels, that is closed where the surface joins no vertices
@@ -48,11 +50,11 @@ class ChainFinder {
     for (int n = 0; n < candidates_.size(); ++n) {
       const Candidate& candidate = candidates_[n];
       Best& best = best_[n];
-      best.start = candidate.cost + candidates_.left_out(0, candidate.piece) + 0.5 * candidate.along / h_;
+      best.start = candidate.cost + candidates_.left_out(0, candidate.piece) + beyond(candidate.along);
       for (const int m : candidates_.joined_before(n)) follow(m, n, 0.0, true);
-      for (int m = 0; m < n; ++m) follow(m, n, kBreak + (candidate.along - candidates_[m].along) / h_, false);
+      for (int m = 0; m < n; ++m) follow(m, n, gap(candidate.along - candidates_[m].along), false);
       const double tail = candidates_.left_out(candidate.piece + 1, candidates_.piece_count()) +
-                          0.5 * (candidates_.length() - candidate.along) / h_;
+                          beyond(candidates_.length() - candidate.along);
       const double alone = best.start + kUncovered * candidates_.length() / h_;
       const double total = tail + std::min(best.total, alone);
       if (total >= least) continue;
@@ -62,6 +64,12 @@ class ChainFinder {
     }
     return end;
   }
+
+  /// Of a length, m, of the trace that a vertex at its end has to be stretched over.
+  double beyond(double length) const { return 0.5 * length / h_ + kBeyond * std::max(0.0, length / h_ - 0.5); }
+
+  /// Of a length, m, of the trace that has no surface.
+  double gap(double length) const { return kBreak + length / h_ + kGap * std::max(0.0, length / h_ - 0.5); }
 
   void follow(int m, int n, double cost, bool continues) {
     const Candidate &before = candidates_[m], &candidate = candidates_[n];
