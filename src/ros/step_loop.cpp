@@ -117,6 +117,9 @@ void StepLoop::feed(const ReceivedPose& pose) {
     if (config_.node.reset_on_loop) forget();
     timeline_.restart();
   }
+  // Poses come again: the time without them was not left out, as there was nothing to do.
+  if (config_.node.timing == Timing::kRealtime && status().stale && timeline_.is_gap(pose.stamp.toSec()))
+    timeline_.restart();
   newest_ = pose.stamp.toSec();
   held_steps_wanted_ = true;
   timeline_.push(newest_, pose.pose);
@@ -215,9 +218,10 @@ void StepLoop::forget() {
 
 bool StepLoop::reset() {
   return run_between_steps([this](Simulation&) {
+    const bool paused = status().state == OperatingState::kPaused;
     forget();
     start_timeline_anew();
-    set_state(OperatingState::kEnabled);
+    set_state(paused ? OperatingState::kPaused : OperatingState::kEnabled);
     scene_publisher_.wake();
   });
 }

@@ -107,7 +107,11 @@ void ToolTracker::offer(const std_msgs::Header& header, const Pose& pose) {
   if (header.stamp.isZero())
     ROS_WARN_THROTTLE(kWarnEvery, "Left out %s with the stamp 0: must be the time of the pose",
                       source().c_str());
+  const std::uint64_t late = queue_.counts().out_of_order;
   queue_.push({header.stamp, frame_name(header.frame_id), pose, std::chrono::steady_clock::now()});
+  if (queue_.counts().out_of_order > late)
+    ROS_WARN_THROTTLE(kWarnEvery, "Left out %s at %.3f s: must be later than the pose before",
+                      source().c_str(), header.stamp.toSec());
   place_all();
 }
 

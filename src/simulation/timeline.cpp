@@ -36,7 +36,8 @@ bool Timeline::push(double stamp, const Pose& X_TB) {
   if (!poses_.empty() && stamp - poses_.back().time > kLongestGap) restart();
   const bool jump = !poses_.empty() && is_jump_ && is_jump_(poses_.back().X_TB, X_TB);
   if (jump) ++jumps_;
-  poses_.push_back({stamp, X_TB, jump || (!poses_.empty() && stamp - poses_.back().time > max_gap_)});
+  const bool after_gap = jump || is_gap(stamp);
+  poses_.push_back({stamp, X_TB, after_gap});
   return true;
 }
 

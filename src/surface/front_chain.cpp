@@ -14,7 +14,7 @@ using Candidate = ChainCandidates::Candidate;
 // What a chain costs, in voxel edges of stretch, besides its candidates.
 constexpr double kBreak = 3.0;      // for vertices that nothing joins
 constexpr double kGap = 10.0;       // for each voxel between them, but for the first half
-constexpr double kBeyond = 2.0;     // for each voxel beyond the first and the last, but for half of one
+constexpr double kBeyond = 3.0;     // for each voxel beyond the first and the last, but for half of one
 constexpr double kUncovered = 5.0;  // for each voxel of the trace's length, where one vertex stands for all
 constexpr double kNearest = 0.005;  // of a voxel, between vertices
 constexpr double kWidestGap = 1.0;  // in voxels, that is closed where the surface joins no vertices

@@ -87,6 +87,9 @@ class PlaybackTest(NodeTest):
         self.send_slice(5000.0, seconds=0.2)
         rospy.sleep(0.5)
         self.assertFalse(self.steps)
+        self.assertTrue(self.call("reset").success)
+        rospy.sleep(0.2)
+        self.assertEqual(self.states[-1], "PAUSED", "a reset lets nothing go on")
         self.assertTrue(self.call("resume").success)
         wait_until(lambda: self.states[-1] == "ENABLED", "the node goes on")
 

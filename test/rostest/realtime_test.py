@@ -65,6 +65,17 @@ class RealtimeTest(NodeTest):
         wait_until(lambda: self.steps[-1].header.stamp.to_sec() > stamp + 0.02, "steps go on with the blade held")
         wait_until(lambda: is_zero(self.wrenches[-1]), "the input is stale")
 
+    def test_silence_is_not_slowness(self):
+        for first in (4000.0, 4010.0):
+            start = time.monotonic()
+            for stamp, xyz in slice_poses(first, seconds=0.5):
+                time.sleep(max(0.0, start + stamp - first - time.monotonic()))
+                self.poses.publish(make_pose(stamp, xyz))
+            self.wait_for_step(stamp)
+            wait_until(lambda: is_zero(self.wrenches[-1]), "the input is stale")
+            skipped = self.steps[-1].skipped - self.steps[0].skipped
+            self.assertLess(skipped, 5.0)
+
 
 if __name__ == "__main__":
     rospy.init_node("realtime_test")

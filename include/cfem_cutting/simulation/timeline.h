@@ -28,6 +28,9 @@ class Timeline {
   /// @return false if the stamp does not increase: the pose is not used
   bool push(double stamp, const Pose& X_TB);
 
+  /// Whether there is no pose for so long before a stamp (s) that the front will be made anew there.
+  bool is_gap(double stamp) const { return !poses_.empty() && stamp - poses_.back().time > max_gap_; }
+
   /// The next whole step that the poses so far cover (grips are the caller's).
   std::optional<StepInput> next();
 
