@@ -91,7 +91,8 @@ void Simulation::State::advance_cut_end() {
   extractor.freeze();
   if (immediate()) return;
   for (const Touch& touch : tracker.inside()) {
-    if (!contact.covers(touch.along) && !is_in_earlier_cut(touch)) bind({touch.X, touch.voxel}, touch.along, true);
+    if (!contact.covers(touch.along) && !is_in_earlier_cut(touch))
+      bind({touch.X, touch.voxel}, touch.along, true);
   }
 }
 

@@ -66,7 +66,9 @@ class ChainFinder {
   }
 
   /// Of a length, m, of the trace that a vertex at its end has to be stretched over.
-  double beyond(double length) const { return 0.5 * length / h_ + kBeyond * std::max(0.0, length / h_ - 0.5); }
+  double beyond(double length) const {
+    return 0.5 * length / h_ + kBeyond * std::max(0.0, length / h_ - 0.5);
+  }
 
   /// Of a length, m, of the trace that has no surface.
   double gap(double length) const { return kBreak + length / h_ + kGap * std::max(0.0, length / h_ - 0.5); }
