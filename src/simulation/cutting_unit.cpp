@@ -53,7 +53,10 @@ void CuttingUnit::measure(const VoxelVolume& volume, const OffsetField& offsets,
 }
 
 void CuttingUnit::leave_behind() {
-  for (Candidate& c : candidates_) c.passed_by = std::numeric_limits<double>::infinity();
+  for (Candidate& c : candidates_) {
+    c.passed_by = std::numeric_limits<double>::infinity();
+    c.front_distance = 0.0;
+  }
 }
 
 void CuttingUnit::begin_next(const std::vector<Candidate>& waiting) {

@@ -86,6 +86,8 @@ TEST_F(CuttingUnitOfABar, waiting_links_go_on_to_the_next_unit) {
 
 TEST_F(CuttingUnitOfABar, all_are_passed_once_the_front_has_come_out_and_none_wait_after_a_drop) {
   unit.leave_behind();
+  measure(0.011);
+  ASSERT_FALSE(unit.candidates().empty());
   for (const Candidate& c : unit.candidates()) EXPECT_GT(c.passed_by, 1e9);
   unit.drop();
   EXPECT_TRUE(unit.candidates().empty());

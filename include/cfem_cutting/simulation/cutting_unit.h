@@ -20,8 +20,9 @@ class CuttingUnit {
   /// Adds the links that a sweep meets; a link that waits already is met once.
   void collect(const std::vector<Crossing>& crossings);
 
-  /// Updates the candidates' offsets and their distances from the front; drops those that the front has
-  /// retreated from by more than two blocks.
+  /// Updates the candidates' offsets and their distances from the front (of those left behind no more); drops
+  /// those that the front has retreated from by more than two blocks.
+  /// @param front its runs in and beside tissue, m, material
   /// @param push the way the blade cuts, in material space
   void measure(const VoxelVolume& volume, const OffsetField& offsets, const std::vector<Polyline>& front,
                const Vec3& push, double block);

@@ -26,9 +26,9 @@ struct EdgePart {
 /// The edge is sampled eight times a voxel. Where the blade holds tissue (between contact points) or a sample
 /// lies on the chain, its distance is that to the chain. Other samples inside the drawn surface are covered
 /// by tissue that the blade does not hold, such as the sides of its own slot where they lap over each other:
-/// the distance is that to the surface. Samples farther than a voxel from all surface, or held where there is
-/// no chain, are in tissue where no link is severed yet, such as a stab narrower than a voxel: there is
-/// nothing to draw, and they are counted apart.
+/// the distance is that to the surface. Samples farther than a voxel from all surface, or held in a step
+/// without any chain, are in tissue where no link is severed yet, such as a stab narrower than a voxel: there
+/// is nothing to draw, and they are counted apart.
 struct FrontFidelity {
   Distances crease;    ///< from the edge
   Distances cut_end;   ///< from the edge
