@@ -41,7 +41,7 @@ void find_sheets(DualCell& cell) {
     if (!cell.has_side(side) || cell.sheet_of_side[side] >= 0) continue;
     const Sheet sheet = trace_sheet(cell, side);
     for (LocalSide s = side; s < kLocalSides; ++s)
-      if (sheet.sides >> s & 1) cell.sheet_of_side[s] = static_cast<std::int8_t>(cell.sheets.size());
+      if (sheet.sides >> s & 1) cell.sheet_of_side[s] = static_cast<int>(cell.sheets.size());
     cell.sheets.push_back(sheet);
   }
 }

@@ -55,7 +55,7 @@ struct DualCell {
   Vec3i index;
   std::array<int, 8> voxel{};  ///< linked voxels at the corners, −1 for none
   SideMask sides = 0;
-  std::array<std::int8_t, kLocalSides> sheet_of_side{};
+  std::array<int, kLocalSides> sheet_of_side{};
   std::vector<Sheet> sheets;
   std::vector<SheetGroup> groups;
 
