@@ -1,6 +1,7 @@
 #include "simulation_state.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -21,8 +22,24 @@ double stiffest(const std::vector<Material>& materials) {
 
 double half_voxel(const VoxelVolume& volume) { return 0.5 * volume.lattice().spacing.minCoeff(); }
 
+/// What is said of labels that the tissue does not have.
+template <typename Warn>
+void look_for_labels(const VoxelVolume& volume, const SimulationConfig& config, const Warn& warn) {
+  std::set<int> labels;
+  for (const Voxel& voxel : volume.voxels()) labels.insert(voxel.label);
+  std::set<int> used;
+  for (const int label : labels) used.insert(match_material(config.tissue.materials, label));
+  for (int m = 0; m < static_cast<int>(config.tissue.materials.size()); ++m)
+    if (used.count(m) == 0)
+      warn("tissue.materials[", m, "]: no tissue is of it: must be the first that matches a label");
+  for (const int label : config.surface.hidden_labels)
+    if (labels.count(label) == 0) warn("surface.hidden_labels: no tissue has label ", label);
+  for (const LabelColour& colour : config.surface.label_colours)
+    if (labels.count(colour.label) == 0) warn("surface.label_colours: no tissue has label ", colour.label);
+}
+
 std::vector<std::string> find_warnings(const VoxelVolume& volume, const Grips& grips,
-                                       const std::vector<Vec3>& probes) {
+                                       const SimulationConfig& config) {
   std::vector<std::string> warnings;
   const auto warn = [&](auto&&... parts) {
     std::ostringstream line;
@@ -33,9 +50,10 @@ std::vector<std::string> find_warnings(const VoxelVolume& volume, const Grips& g
     warn("tissue.voxel_size: ", volume.dropped_volume(), " m^3 of tissue thinner than a voxel was left out");
   if (grips.held().nodes.empty()) warn("tissue.fixed: no node is held, the tissue floats");
   for (int grip : grips.idle()) warn("tissue.fixed[", grip, "]: holds no node: must reach into the tissue");
-  for (const Vec3& X : probes)
+  for (const Vec3& X : config.probes)
     if (tissue_voxel_at(volume, X) < 0)
       warn("probes: [", X.x(), ", ", X.y(), ", ", X.z(), "] lies outside the tissue");
+  look_for_labels(volume, config, warn);
   return warnings;
 }
 
@@ -65,7 +83,7 @@ Simulation::State::State(const SimulationConfig& config_in, VoxelVolume uncut, c
       }) {
   find_held();
   extractor.extract({});
-  warnings = find_warnings(volume, grips, config.probes);
+  warnings = find_warnings(volume, grips, config);
 }
 
 void Simulation::State::place_grips(const StepInput& input) {

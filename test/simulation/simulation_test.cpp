@@ -227,5 +227,20 @@ TEST(Simulation, area_of_a_fracture_is_that_behind_released_contact_points) {
   EXPECT_NEAR(area, 0.032 * 0.032, 0.02 * 0.032 * 0.032);
 }
 
+TEST(Simulation, materials_and_labels_that_the_tissue_lacks_are_told) {
+  SimulationConfig config = box_config();
+  EXPECT_TRUE(make_simulation(config).warnings().empty());
+  Material unused = config.tissue.materials[0];
+  unused.label = 7;
+  config.tissue.materials.push_back(unused);
+  config.surface.hidden_labels = {9};
+  config.surface.label_colours = {{0, {1, 0, 0}}, {8, {1, 0, 0}}};
+  const std::vector<std::string> warnings = make_simulation(config).warnings();
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_NE(warnings[0].find("tissue.materials[1]"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("surface.hidden_labels: no tissue has label 9"), std::string::npos);
+  EXPECT_NE(warnings[2].find("surface.label_colours: no tissue has label 8"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace cfem_cutting
